@@ -1,0 +1,29 @@
+# Language level, warnings and the build type that speed and tests are measured with.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+# -ffp-contract=off: the same bits whatever the compiler would fuse; -fno-math-errno: sqrt becomes one instruction.
+add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fno-math-errno>)
+
+# Our own targets get every warning; headers of dependencies are system headers and stay silent.
+function(rilo_set_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+  if(RILO_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# One library of ours: target rilo_NAME, exported as rilo::NAME.
+function(rilo_add_library name)
+  add_library(rilo_${name} ${ARGN})
+  add_library(rilo::${name} ALIAS rilo_${name})
+  set_target_properties(rilo_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(rilo_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  rilo_set_warnings(rilo_${name})
+endfunction()

@@ -1,0 +1,52 @@
+// LiDAR odometry: sweeps in, poses and a local map out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rilo/cloud/sweep.hpp"
+#include "rilo/geometry/trajectory.hpp"
+#include "rilo/odometry/odometry_config.hpp"
+#include "rilo/odometry/sweep_result.hpp"
+
+namespace rilo {
+
+/// The pipeline of the paper, one call per sweep. Not thread-safe: one thread calls it; inside it uses `threads` threads
+/// and gives the same bits for any number of them.
+class Odometry {
+ public:
+  /// Monotonic time in ns for the stage times in the statistics. The core itself reads no clock.
+  using Clock = std::function<std::int64_t()>;
+
+  /// @throws std::invalid_argument when a configuration value is out of range (it is named, with its range).
+  explicit Odometry(const OdometryConfig& config, Clock clock = {});
+  ~Odometry();
+  Odometry(Odometry&&) noexcept;
+  Odometry& operator=(Odometry&&) noexcept;
+
+  /// Registers one sweep. Stamps must increase; a sweep whose stamp does not is registered as if one usual period had passed.
+  /// Never throws on bad data: the status in the result says what happened.
+  SweepResult register_sweep(const Sweep& sweep);
+
+  /// Poses so far, one per registered sweep.
+  const Trajectory& trajectory() const;
+
+  /// Points of the local map, odometry frame (m).
+  std::vector<Eigen::Vector3f> local_map() const;
+
+  /// Points of the last sweep that went into the map, motion-compensated, sensor frame at the pose's instant (m).
+  const std::vector<Eigen::Vector3f>& last_map_points() const;
+
+  /// Forgets map, trajectory and motion; the next sweep starts anew at the identity.
+  void reset();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rilo

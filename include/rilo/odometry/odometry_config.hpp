@@ -1,0 +1,26 @@
+// The whole configuration: one plain struct per stage.
+#pragma once
+
+#include "rilo/cloud/preprocess_config.hpp"
+#include "rilo/map/local_map_config.hpp"
+#include "rilo/odometry/adaptive_threshold_config.hpp"
+#include "rilo/odometry/initial_pose_config.hpp"
+#include "rilo/odometry/motion_prediction_config.hpp"
+#include "rilo/registration/adaptive_icp_config.hpp"
+#include "rilo/registration/coarse_registration_config.hpp"
+
+namespace rilo {
+
+/// Everything the odometry can be told. The defaults are meant for every sensor.
+struct OdometryConfig {
+  int threads = 0;  ///< 0: as many as the machine has
+  PreprocessConfig preprocess;
+  CoarseRegistrationConfig coarse;
+  MotionPredictionConfig prediction;
+  InitialPoseConfig initial_pose;
+  AdaptiveThresholdConfig threshold;
+  AdaptiveIcpConfig icp;
+  LocalMapConfig map;
+};
+
+}  // namespace rilo

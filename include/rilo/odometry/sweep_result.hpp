@@ -1,0 +1,95 @@
+// What the odometry says about one sweep.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "rilo/geometry/se3.hpp"
+
+namespace rilo {
+
+/// How far a pose can be trusted.
+enum class OdometryStatus : std::uint8_t {
+  kOk,                  ///< registered
+  kInitialising,        ///< first sweep: the map starts here
+  kDegenerate,          ///< registered, but a direction is (nearly) unobservable; the prediction fills it
+  kFewCorrespondences,  ///< too little overlap with the map; the pose leans on the prediction
+  kLost,                ///< the pose is a guess; the map is not updated
+  kRecovered,           ///< registered again after kLost
+  kEmpty,               ///< no usable point in the sweep; the pose is the prediction
+};
+inline constexpr std::size_t kStatusCount = 7;
+
+/// Short name for files: ok, initialising, degenerate, few_correspondences, lost, recovered, empty.
+std::string_view to_string(OdometryStatus status);
+
+/// Which candidate started the fine registration (III-B).
+enum class InitialPoseSource : std::uint8_t { kIdentity, kPrediction, kCoarse };
+/// identity, prediction, coarse.
+std::string_view to_string(InitialPoseSource source);
+
+/// The instant of the sweep that a pose refers to.
+enum class PoseInstant : std::uint8_t { kStart, kMid, kEnd };
+/// start, mid, end.
+std::string_view to_string(PoseInstant instant);
+
+/// Why the initial pose was taken (III-B).
+enum class InitialPoseReason : std::uint8_t {
+  kFirstSweep,         ///< nothing to predict from
+  kCoarseDisabled,     ///< only the prediction exists
+  kCoarseNotNeeded,    ///< the prediction already explains the sweep: the coarse stage was not run
+  kCoarseFailed,       ///< the coarse stage did not converge
+  kWithinTau,          ///< |t(T_pred^-1 T_align)| <= tau: coarse result taken (the paper's rule)
+  kBeyondTau,          ///< farther than tau: prediction taken (the paper's rule)
+  kBetterMapScore,     ///< the coarse result explains the local map better
+  kWorseMapScore,      ///< the prediction explains the local map better
+};
+std::string_view to_string(InitialPoseReason reason);
+
+/// Wall time of each stage in ms; all zero unless a clock was given to the odometry.
+struct StageTimes {
+  double preprocess_ms = 0;    ///< crop, NaN removal, downsampling, motion compensation
+  double coarse_ms = 0;        ///< III-A
+  double initial_pose_ms = 0;  ///< III-B
+  double registration_ms = 0;  ///< III-D
+  double map_ms = 0;           ///< insertion and eviction
+  double total_ms = 0;
+};
+
+/// Statistics of one sweep; one line of sweeps.csv.
+struct SweepStats {
+  std::size_t points_in = 0;        ///< as given
+  std::size_t points_valid = 0;     ///< finite and within range
+  std::size_t points_map = 0;       ///< after downsampling, for the map
+  std::size_t points_source = 0;    ///< source cloud S of the fine registration
+  std::size_t map_voxels = 0;       ///< after the update
+  InitialPoseSource initial_pose = InitialPoseSource::kIdentity;
+  InitialPoseReason initial_pose_reason = InitialPoseReason::kFirstSweep;
+  bool coarse_ran = false;
+  int coarse_iterations = 0;
+  double pred_align_distance_m = 0; ///< Δt_i (III-B)
+  int iterations = 0;               ///< fine registration (III-D)
+  bool converged = false;
+  std::size_t inliers = 0;          ///< correspondences of the last iteration
+  double inlier_ratio = 0;          ///< inliers / points_source
+  double residual_rms_m = 0;        ///< weighted point-to-plane residual
+  double sigma_th_m = 0;            ///< threshold used for this sweep (III-C)
+  double gamma = 1;                 ///< γ_i, steadiness of the motion (III-C)
+  double deviation_m = 0;           ///< e_i, model deviation (III-C)
+  std::array<double, 6> relative_eigenvalues{};  ///< of the information matrix, ascending, largest = 1
+  StageTimes times;
+};
+
+/// Result of one sweep.
+struct SweepResult {
+  std::int64_t stamp_ns = 0;                     ///< instant of the pose
+  SE3 T_odom_lidar = SE3::Identity();
+  Vector6d twist = Vector6d::Zero();             ///< body velocity during the sweep [rad/s; m/s]
+  Matrix6d covariance = Matrix6d::Zero();        ///< of the pose, right perturbation, [rad; m]
+  OdometryStatus status = OdometryStatus::kInitialising;
+  SweepStats stats;
+};
+
+}  // namespace rilo

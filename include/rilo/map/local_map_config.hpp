@@ -4,8 +4,13 @@ namespace rilo {
 
 /// Local voxel map.
 struct LocalMapConfig {
-  double voxel_m = 0.5;
-  double radius_m = 120.0;   ///< voxels farther from the sensor are evicted
+  double voxel_m = 0.5;             ///< finest voxel; every level above doubles it
+  int levels = 2;                   ///< number of voxel sizes
+  double radius_m = 120.0;          ///< voxels farther from the sensor are evicted
+  int min_points = 6;               ///< a voxel with fewer points has no plane
+  int max_points = 100;             ///< a voxel with that many points is full
+  double max_planarity = 0.1;       ///< largest smallest-to-middle eigenvalue ratio of a plane
+  double min_extent = 0.1;          ///< smallest middle standard deviation of a plane, in voxels
 };
 
 }  // namespace rilo

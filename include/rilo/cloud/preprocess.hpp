@@ -1,0 +1,48 @@
+// From a raw sweep to the two clouds the pipeline works on.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rilo/cloud/preprocess_config.hpp"
+#include "rilo/cloud/sweep.hpp"
+#include "rilo/cloud/timed_cloud.hpp"
+#include "rilo/cloud/voxel_sampler.hpp"
+
+namespace rilo {
+
+/// A sweep after range crop and downsampling; times relative to the middle of the sweep.
+struct PreparedSweep {
+  std::int64_t mid_stamp_ns = 0;  ///< reference instant of the sweep's pose
+  std::size_t valid_points = 0;   ///< finite and within range
+  TimedCloud map_cloud;           ///< one point per map voxel
+  TimedCloud source;              ///< S, one point per source voxel, a subset of map_cloud
+};
+
+/// Range crop, NaN removal, time normalisation and downsampling. Keeps its buffers from sweep to sweep.
+class Preprocessor {
+ public:
+  explicit Preprocessor(const PreprocessConfig& config) : config_(config) {}
+
+  /// The result is valid until the next call.
+  const PreparedSweep& prepare(const Sweep& sweep);
+
+  void reset();
+
+ private:
+  void crop(const Sweep& sweep);
+  void normalise_times(const Sweep& sweep);
+
+  PreprocessConfig config_;
+  TimedCloud cropped_;
+  PreparedSweep prepared_;
+  VoxelSampler map_sampler_;
+  VoxelSampler source_sampler_;
+  // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its seam, and the
+  // reference instant must not.
+  bool span_known_ = false;
+  float span_begin_s_ = 0;
+  float span_end_s_ = 0;
+};
+
+}  // namespace rilo

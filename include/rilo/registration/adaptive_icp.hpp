@@ -1,0 +1,51 @@
+// Point-to-plane adaptive ICP from a sweep to the local map (III-D, Algorithm 2).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "rilo/cloud/timed_cloud.hpp"
+#include "rilo/geometry/se3.hpp"
+#include "rilo/map/local_map.hpp"
+#include "rilo/registration/adaptive_icp_config.hpp"
+#include "rilo/registration/normal_equations.hpp"
+
+namespace rilo {
+
+/// Pose and velocity of the sensor at the reference instant of a sweep.
+struct MotionState {
+  SE3 T_odom_lidar = SE3::Identity();
+  Vector6d twist = Vector6d::Zero();  ///< body velocity [rad/s; m/s]
+};
+
+/// What is known of the state before the sweep is looked at. Perturbations: rotation and translation of the sensor about its own
+/// origin along the axes of the odometry frame, then their rates.
+struct MotionPrior {
+  MotionState state;
+  Matrix12d information = Matrix12d::Zero();  ///< zero: nothing is known
+};
+
+/// Result of the registration.
+struct IcpResult {
+  MotionState state;
+  bool converged = false;
+  int iterations = 0;
+  std::size_t inliers = 0;
+  double residual_rms_m = 0;
+  Matrix6d lidar_information = Matrix6d::Zero();  ///< of the pose, sweep alone, same perturbation as MotionPrior
+  Matrix12d posterior_information = Matrix12d::Zero();
+};
+
+/// Residuals and Jacobians of `source` against the planes of `map` at `state`, with the Cauchy weight of σ_th (eq. β_k), summed.
+/// The pose is perturbed as described at MotionPrior.
+NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
+                          const AdaptiveIcpConfig& config);
+
+/// Moves `state` by the perturbation [rotation; translation; their rates].
+MotionState perturbed(const MotionState& state, const Vector12d& delta);
+
+/// Aligns `source` with `map` from `initial`, weights from `sigma_th_m`.
+IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial, const MotionPrior& prior,
+                       double sigma_th_m, const AdaptiveIcpConfig& config);
+
+}  // namespace rilo

@@ -1,0 +1,67 @@
+// Normal equations of scalar residuals on a pose and on the velocity during a sweep.
+#pragma once
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include "rilo/geometry/se3.hpp"
+
+namespace rilo {
+
+using Vector12d = Eigen::Matrix<double, 12, 1>;
+using Matrix12d = Eigen::Matrix<double, 12, 12>;
+
+/// Sums of weighted residuals e with Jacobian [J, s J], s the offset (s) of the point from the pose's instant: the second block is
+/// the velocity. The three blocks of the Hessian share the products J Jᵀ, so that a velocity costs little more than none.
+struct NormalEquations {
+  Matrix6d H0 = Matrix6d::Zero();  ///< Σ w J Jᵀ, lower triangle
+  Matrix6d H1 = Matrix6d::Zero();  ///< Σ w s J Jᵀ
+  Matrix6d H2 = Matrix6d::Zero();  ///< Σ w s² J Jᵀ
+  Vector6d b0 = Vector6d::Zero();  ///< Σ w J e
+  Vector6d b1 = Vector6d::Zero();  ///< Σ w s J e
+  double weight = 0;               ///< Σ w
+  double squared_error = 0;        ///< Σ w e²
+  std::size_t count = 0;           ///< residuals
+
+  void add(const Vector6d& J, double e, double w) {
+    const Vector6d wJ = w * J;
+    for (int c = 0; c < 6; ++c) {
+      for (int r = c; r < 6; ++r) {
+        H0(r, c) += wJ[r] * J[c];
+      }
+    }
+    b0 += e * wJ;
+    weight += w;
+    squared_error += w * e * e;
+    ++count;
+  }
+
+  void add(const Vector6d& J, double e, double w, double s) {
+    const Vector6d wJ = w * J;
+    for (int c = 0; c < 6; ++c) {
+      for (int r = c; r < 6; ++r) {
+        const double h = wJ[r] * J[c];
+        H0(r, c) += h;
+        H1(r, c) += s * h;
+        H2(r, c) += s * s * h;
+      }
+    }
+    b0 += e * wJ;
+    b1 += s * e * wJ;
+    weight += w;
+    squared_error += w * e * e;
+    ++count;
+  }
+
+  NormalEquations& operator+=(const NormalEquations& other);
+
+  /// Symmetric 6×6 Hessian of the pose.
+  Matrix6d pose_hessian() const;
+  /// Symmetric 12×12 Hessian of pose and velocity.
+  Matrix12d hessian() const;
+  /// Gradient of pose and velocity.
+  Vector12d gradient() const;
+};
+
+}  // namespace rilo

@@ -1,0 +1,41 @@
+#include "rilo/cloud/deskew.hpp"
+
+#include <algorithm>
+
+#include "cloud/fixed_chunks.hpp"
+
+namespace rilo {
+
+namespace {
+constexpr int kKnots = 129;
+}
+
+SweepMotion::SweepMotion(const Vector6d& twist, float begin_s, float end_s)
+    : omega_(twist.head<3>().cast<float>()), velocity_(twist.tail<3>().cast<float>()), begin_s_(begin_s) {
+  const float span = end_s - begin_s;
+  last_ = span > 0.0F ? kKnots - 1 : 0;
+  inverse_step_ = span > 0.0F ? static_cast<float>(last_) / span : 0.0F;
+  knots_.reserve(static_cast<std::size_t>(last_) + 1);
+  for (int i = 0; i <= last_; ++i) {
+    const float offset = last_ == 0 ? begin_s : begin_s + span * static_cast<float>(i) / static_cast<float>(last_);
+    const SE3 T = se3_exp(twist * static_cast<double>(offset));
+    knots_.push_back({T.linear().cast<float>(), T.translation().cast<float>(), offset});
+  }
+}
+
+void deskew(const TimedCloud& cloud, const Vector6d& twist, std::vector<Eigen::Vector3f>& out) {
+  out.resize(cloud.size());
+  if (!cloud.timed() || cloud.points.empty()) {
+    out = cloud.points;
+    return;
+  }
+  const auto [begin, end] = std::minmax_element(cloud.offsets_s.begin(), cloud.offsets_s.end());
+  const SweepMotion motion(twist, *begin, *end);
+  for_fixed_chunks(cloud.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      out[i] = motion.compensate(cloud.points[i], cloud.offsets_s[i]);
+    }
+  });
+}
+
+}  // namespace rilo

@@ -1,0 +1,52 @@
+// Results appear whole or not at all.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace rilo {
+
+/// Writes to a temporary file beside `target`; commit() makes it durable and renames it. Without commit (an exception,
+/// an early return) the temporary file is removed and `target` stays as it was. All functions throw IoError: folder
+/// missing or not writable, target not a regular file, disk full.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& target);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Appends bytes (buffered).
+  void write(std::string_view bytes);
+
+  /// Replaces bytes that were written before, for headers whose counts are known only at the end.
+  void overwrite(std::uint64_t offset, std::string_view bytes);
+
+  /// Flushes, fsyncs, renames. Nothing may be written afterwards.
+  void commit();
+
+  const std::filesystem::path& target() const { return target_; }
+
+ private:
+  void flush();
+  void write_at(std::uint64_t offset, std::string_view bytes);
+  void discard() noexcept;
+  [[noreturn]] void fail(const std::string& action, int error_number);
+
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  int descriptor_ = -1;
+  std::string buffer_;
+  std::uint64_t flushed_ = 0;
+};
+
+/// The whole file in one call.
+void write_atomically(const std::filesystem::path& target, std::string_view bytes);
+
+/// Calls `write` with an open AtomicFile and commits when it returns.
+void write_atomically(const std::filesystem::path& target, const std::function<void(AtomicFile&)>& write);
+
+}  // namespace rilo

@@ -1,0 +1,70 @@
+// Sweeps, one after the other, wherever they come from.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rilo/cloud/sweep.hpp"
+#include "rilo/geometry/se3.hpp"
+#include "rilo/io/source_options.hpp"
+
+namespace rilo {
+
+/// What a source is and what was decided about it. Some of it is known only after the first sweep was read.
+struct SourceInfo {
+  std::string kind;            ///< "kitti", "drive simulator", "folder", "file"
+  std::string format;          ///< "bin", "pcd", "ply"
+  std::filesystem::path path;  ///< as given
+  std::optional<std::size_t> sweeps;
+  double period_s = 0.1;                ///< median gap of the stamps, or 1 / assumed_rate_hz
+  bool stamps_assumed = false;          ///< the data has no stamps
+  bool has_point_times = false;         ///< sweeps come with per-point times
+  std::string point_times = "none";     ///< where they come from, with unit and reference
+  double elevation_correction_deg = 0;  ///< applied; 0: none
+  std::optional<SE3> T_cam_lidar;       ///< KITTI's `Tr`
+  std::size_t bad_sweeps = 0;           ///< skipped so far (OnBadSweep::kSkip)
+  std::vector<std::string> warnings;    ///< sentences for the user
+};
+
+/// A stream of sweeps. One thread uses it. Memory does not grow with the data.
+class ScanSource {
+ public:
+  virtual ~ScanSource() = default;
+
+  /// The next sweep, or nothing at the end.
+  /// @throws IoError when it cannot be read; the following call goes on with the sweep after it.
+  virtual std::optional<Sweep> next() = 0;
+
+  /// Leaves out up to `count` sweeps without reading them; returns how many there were. Cheapest before the first
+  /// next().
+  virtual std::size_t skip(std::size_t count) = 0;
+
+  /// Number of sweeps in all, when it is known without reading them.
+  virtual std::optional<std::size_t> size() const = 0;
+
+  /// Place in the data (from 0) of the sweep that next() gave last: ground truth is looked up with it, since bad and
+  /// skipped sweeps leave holes in the count.
+  virtual std::size_t current_index() const = 0;
+
+  /// Name of that sweep for messages: the path of its file.
+  virtual std::string current_name() const = 0;
+
+  virtual SourceInfo info() const = 0;
+
+ protected:
+  ScanSource() = default;
+  ScanSource(const ScanSource&) = default;
+  ScanSource& operator=(const ScanSource&) = default;
+};
+
+/// Opens a KITTI sequence folder, a drive simulator's folder, a folder of .bin, .pcd or .ply sweeps, or one such file;
+/// the kind is guessed from what lies in the path. Elevation correction and reading ahead are in place as `options`
+/// say. See docs/file-formats.md.
+/// @throws IoError when the path is none of these; std::invalid_argument when an option makes no sense.
+std::unique_ptr<ScanSource> open_scan_source(const std::filesystem::path& path, const SourceOptions& options = {});
+
+}  // namespace rilo

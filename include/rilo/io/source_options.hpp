@@ -1,0 +1,61 @@
+// Everything that can be told to a scan source.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace rilo {
+
+/// Where the per-point times come from.
+enum class PointTimes : std::uint8_t {
+  kAuto,     ///< from the data when it has them, else none
+  kNone,     ///< ignored: every point is taken at the sweep's stamp
+  kAzimuth,  ///< from the azimuth of a spinning sensor whose sweep is stamped when it faces forward
+};
+/// auto, none, azimuth.
+std::string_view to_string(PointTimes value);
+std::optional<PointTimes> parse_point_times(std::string_view text);
+
+/// Unit of a per-point time field.
+enum class PointTimeUnit : std::uint8_t {
+  kInfer,         ///< from the field's span; refused when ambiguous
+  kSeconds,       ///< s
+  kMilliseconds,  ///< ms
+  kMicroseconds,  ///< µs
+  kNanoseconds,   ///< ns
+  kFraction,      ///< 0 … 1 of the sweep's period
+};
+/// infer, s, ms, us, ns, fraction.
+std::string_view to_string(PointTimeUnit value);
+std::optional<PointTimeUnit> parse_point_time_unit(std::string_view text);
+
+/// Sense of rotation of a spinning sensor, seen from above.
+enum class SpinDirection : std::uint8_t { kClockwise, kCounterClockwise };
+/// clockwise, counter-clockwise.
+std::string_view to_string(SpinDirection value);
+std::optional<SpinDirection> parse_spin_direction(std::string_view text);
+
+/// What happens at a sweep that cannot be read.
+enum class OnBadSweep : std::uint8_t { kFail, kSkip };
+/// fail, skip.
+std::string_view to_string(OnBadSweep value);
+std::optional<OnBadSweep> parse_on_bad_sweep(std::string_view text);
+
+struct SourceOptions {
+  /// Columns of a .bin record, one float32 each: x, y, z (needed), intensity, time, ring; `_` is ignored.
+  std::string bin_fields = "x,y,z,intensity";
+  PointTimes point_times = PointTimes::kAuto;
+  PointTimeUnit point_time_unit = PointTimeUnit::kInfer;
+  std::string
+      time_field;  ///< name of the PCD or PLY field that holds the point times; empty: the first of the usual names
+  SpinDirection spin_direction = SpinDirection::kClockwise;  ///< for PointTimes::kAzimuth
+  double elevation_correction_deg = 0;  ///< added to every point's elevation angle; KITTI's HDL-64E needs 0.205
+  double assumed_rate_hz = 10;          ///< for data without stamps
+  OnBadSweep on_bad_sweep = OnBadSweep::kFail;
+  std::size_t read_ahead = 4;  ///< sweeps read ahead on a background thread; 0: none
+};
+
+}  // namespace rilo

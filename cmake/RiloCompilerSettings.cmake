@@ -7,8 +7,10 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+# Shared builds (-DBUILD_SHARED_LIBS=ON): the installed command finds its libraries wherever the prefix is moved.
+set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 # -ffp-contract=off: the same bits whatever the compiler would fuse; -fno-math-errno: sqrt becomes one instruction.
-add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fno-math-errno>)
+add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off> $<$<COMPILE_LANGUAGE:CXX>:-fno-math-errno>)
 
 # Our own targets get every warning; headers of dependencies are system headers and stay silent.
 function(rilo_set_warnings target)
@@ -18,7 +20,8 @@ function(rilo_set_warnings target)
   endif()
 endfunction()
 
-# One library of ours: target rilo_NAME, exported as rilo::NAME.
+# One library of ours beside the core: target rilo_NAME, alias and exported name rilo::NAME; RiloInstall installs it
+# as component NAME of find_package(rilo).
 function(rilo_add_library name)
   add_library(rilo_${name} ${ARGN})
   add_library(rilo::${name} ALIAS rilo_${name})
@@ -26,4 +29,5 @@ function(rilo_add_library name)
   target_include_directories(rilo_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   rilo_set_warnings(rilo_${name})
+  set_property(GLOBAL APPEND PROPERTY RILO_COMPONENTS ${name})
 endfunction()

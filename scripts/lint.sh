@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Format, clang-tidy (warnings are errors), links of the documents, and paths of somebody's machine.
+# With files as arguments: clang-format and clang-tidy on these alone.
+# shellcheck source-path=SCRIPTDIR
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+scripts/setup.sh --lint
+failed=()
+
+if [ $# -gt 0 ]; then
+  printf '%s\0' "$@" >build/.lint-files || die "run scripts/lint.sh once without arguments first"
+else
+  mkdir -p build
+  print_sources0 >build/.lint-files
+fi
+
+echo "lint: clang-format"
+xargs -0 clang-format --dry-run -Werror --style=file <build/.lint-files || failed+=("clang-format (scripts/format.sh)")
+
+echo "lint: clang-tidy"
+cmake --preset lint --log-level=WARNING
+# The longest first, so that the last of them does not run alone at the end; headers are seen through their users.
+tidy() {
+  grep -z '\.cpp$' | grep -zv '^tests/consumer/' | xargs -0 ls -S | tr '\n' '\0' |
+    xargs -0 -n 1 -P "$JOBS" clang-tidy --quiet -p build/lint --header-filter="^$PWD/"
+}
+tidy <build/.lint-files 2>build/.lint-errors || {
+  grep -v 'warnings generated\|^Suppressed\|^Use -header-filter' build/.lint-errors >&2 || true
+  failed+=("clang-tidy")
+}
+
+if [ $# -eq 0 ]; then
+  echo "lint: scripts, documents and paths"
+  shellcheck --external-sources scripts/*.sh .ci/run || failed+=("shellcheck")
+  scripts/check_links.sh || failed+=("links")
+  # A path such as /home/name/… works on one machine only. The temporary folder comes from the system, never by name.
+  paths='(^|[^A-Za-z0-9_.~/-])/(root|home|work|tmp|mnt|Users)/[A-Za-z0-9_.]'
+  ! grep -rnIE "$paths" . --exclude-dir=.git --exclude-dir=build --exclude-dir=out --exclude-dir=results ||
+    failed+=("machine paths")
+fi
+
+[ ${#failed[@]} -eq 0 ] || die "failed: $(printf '%s; ' "${failed[@]}")"
+echo "lint: clean"

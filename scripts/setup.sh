@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that the project needs. Says nothing and touches no network when all are there.
+#
+#   scripts/setup.sh            to build and test
+#   scripts/setup.sh --minimal  to build the library and the command only
+#   scripts/setup.sh --lint     also clang-format, clang-tidy, gcovr, shellcheck
+#   scripts/setup.sh --docs     also Doxygen
+#   scripts/setup.sh --print    print the package names instead of installing them
+# shellcheck source-path=SCRIPTDIR
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+build=(build-essential cmake make libeigen3-dev libtbb-dev
+       libcli11-dev libyaml-cpp-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libnanoflann-dev)
+tests=(git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-numpy)
+lint=(clang-format clang-tidy gcovr shellcheck)
+docs=(doxygen)
+
+minimal=false
+with_lint=false
+with_docs=false
+print_only=false
+for argument in "$@"; do
+  case "$argument" in
+    --minimal) minimal=true ;;
+    --lint) with_lint=true ;;
+    --docs) with_docs=true ;;
+    --print) print_only=true ;;
+    -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/setup.sh | grep -v '^shellcheck'; exit 0 ;;
+    *) die "unknown option '$argument'; known: --minimal --lint --docs --print" ;;
+  esac
+done
+
+wanted=("${build[@]}")
+$minimal || wanted+=("${tests[@]}")
+! $with_lint || wanted+=("${lint[@]}")
+! $with_docs || wanted+=("${docs[@]}")
+if $print_only; then
+  printf '%s\n' "${wanted[@]}"
+  exit 0
+fi
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  die "this needs Debian or Ubuntu (apt-get). Elsewhere install by hand what these provide: ${wanted[*]}"
+fi
+
+missing=()
+for package in "${wanted[@]}"; do
+  status="$(dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null || true)"
+  grep -qx installed <<<"$status" || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null ||
+    die "neither root nor sudo here. Run as root: apt-get install --no-install-recommends ${missing[*]}"
+  as_root=(sudo)
+fi
+
+# Waits for another apt rather than failing; its chatter goes nowhere, its errors to stderr.
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" \
+    >/dev/null
+}
+
+echo "Installing ${#missing[@]} packages: ${missing[*]}"
+apt update || echo "setup.sh: apt-get update failed; trying with the package lists at hand" >&2
+apt install --yes --no-install-recommends "${missing[@]}" || die "apt-get could not install: ${missing[*]}"

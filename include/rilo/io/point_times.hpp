@@ -15,40 +15,47 @@ namespace rilo {
 
 /// Unit and reference of a time field.
 struct PointTimeConvention {
-  PointTimeUnit unit = PointTimeUnit::kSeconds;
-  bool absolute = false;  ///< counts from an epoch; else from the sweep's stamp
+  PointTimeUnit unit = PointTimeUnit::kSeconds;               ///< never kInfer
+  PointTimeReference reference = PointTimeReference::kStamp;  ///< never kInfer
 
   friend bool operator==(const PointTimeConvention&, const PointTimeConvention&) = default;
 };
 
-/// Turns a field as it stands in the file into Sweep::times_s (and the stamp, when the times are absolute). The
-/// convention is inferred from name, type and span of the first sweep that has times, and kept.
+/// What is known before the first time is seen.
+struct PointTimeHints {
+  PointTimeUnit unit = PointTimeUnit::kInfer;
+  PointTimeReference reference = PointTimeReference::kInfer;
+  std::optional<double> period_s;  ///< of the sweeps, when stamps give it
+  double assumed_period_s = 0.1;   ///< for fractions, when no stamps give it
+};
+
+/// Turns a field as it stands in the file into Sweep::times_s (and the stamp, when the times count from an epoch). The
+/// convention is inferred from name, type and span of the first sweep that tells, and kept.
 class PointTimeDecoder {
  public:
-  /// `period_s`: the sweep's period when it is known from stamps.
-  PointTimeDecoder(PointTimeUnit unit, std::optional<double> period_s) : unit_(unit), period_s_(period_s) {}
+  explicit PointTimeDecoder(const PointTimeHints& hints) : hints_(hints) {}
 
-  /// Fills sweep.times_s, and sweep.stamp_ns when the times are absolute (the earliest point then has time 0). Points
-  /// without a finite time become NaN. `file` is for messages.
+  /// Fills sweep.times_s from `raw`, which is as long as sweep.points; sets sweep.stamp_ns to the earliest point when
+  /// the times count from an epoch. Points without a finite time become NaN. Points that are no measurement (NaN, or
+  /// exactly at the origin) take no part in the decision and get time 0. `file` is for messages.
   /// @throws IoError, with the numbers and the option to set, when the convention is ambiguous or a sweep contradicts
   /// it.
   void decode(const RawTimes& raw, const std::filesystem::path& file, Sweep& sweep);
 
-  /// What was decided; nothing before the first sweep with times.
+  /// What was decided; nothing before the first sweep that tells.
   const std::optional<PointTimeConvention>& convention() const { return convention_; }
 
-  /// For people: "field t (uint32), ns since the sweep's stamp".
+  /// For people: "field t (uint32), ns since the sweep's stamp"; empty before the decision.
   const std::string& description() const { return description_; }
 
  private:
-  PointTimeUnit unit_;
-  std::optional<double> period_s_;
+  PointTimeHints hints_;
   std::optional<PointTimeConvention> convention_;
   std::string description_;
 };
 
 /// Times of a spinning sensor that is stamped when it faces forward (azimuth 0): time = -azimuth / 2π · period for
-/// clockwise, seen from above, else +; within ± period / 2.
+/// clockwise, seen from above, else +; within ± period / 2. NaN points get 0.
 std::vector<float> azimuth_times(const std::vector<Eigen::Vector3f>& points, double period_s, SpinDirection direction);
 
 }  // namespace rilo

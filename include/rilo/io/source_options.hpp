@@ -32,6 +32,16 @@ enum class PointTimeUnit : std::uint8_t {
 std::string_view to_string(PointTimeUnit value);
 std::optional<PointTimeUnit> parse_point_time_unit(std::string_view text);
 
+/// What a per-point time field counts from.
+enum class PointTimeReference : std::uint8_t {
+  kInfer,  ///< from the size of the values; refused when ambiguous
+  kStamp,  ///< the sweep's stamp
+  kEpoch,  ///< an epoch shared by all sweeps: the stamp is the time of the earliest point
+};
+/// infer, stamp, epoch.
+std::string_view to_string(PointTimeReference value);
+std::optional<PointTimeReference> parse_point_time_reference(std::string_view text);
+
 /// Sense of rotation of a spinning sensor, seen from above.
 enum class SpinDirection : std::uint8_t { kClockwise, kCounterClockwise };
 /// clockwise, counter-clockwise.
@@ -49,6 +59,7 @@ struct SourceOptions {
   std::string bin_fields = "x,y,z,intensity";
   PointTimes point_times = PointTimes::kAuto;
   PointTimeUnit point_time_unit = PointTimeUnit::kInfer;
+  PointTimeReference point_time_reference = PointTimeReference::kInfer;
   std::string
       time_field;  ///< name of the PCD or PLY field that holds the point times; empty: the first of the usual names
   SpinDirection spin_direction = SpinDirection::kClockwise;  ///< for PointTimes::kAzimuth

@@ -1,0 +1,150 @@
+// Agreement with an independent scorer (tools/evaltraj.py in the folder RILO_SHARED or ../shared); skipped without it.
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "evaluation/trajectories.hpp"
+#include "rilo/evaluation/evaluation.hpp"
+
+namespace rilo {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::random_drive;
+using testing::with_drift;
+
+constexpr double kRelative = 1e-6;
+
+fs::path shared_folder() {
+  const char* told = std::getenv("RILO_SHARED");
+  return told != nullptr ? fs::path(told) : fs::path(RILO_SOURCE_DIR) / ".." / "shared";
+}
+
+std::string output_of(const std::string& command) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), &pclose);
+  std::string text;
+  std::array<char, 512> chunk{};
+  while (pipe && fgets(chunk.data(), static_cast<int>(chunk.size()), pipe.get()) != nullptr) {
+    text += chunk.data();
+  }
+  return text;
+}
+
+std::vector<SE3> read_poses(const fs::path& path) {
+  std::ifstream file(path);
+  std::vector<SE3> poses;
+  std::string line;
+  while (std::getline(file, line)) {
+    std::istringstream numbers(line);
+    SE3 T = SE3::Identity();
+    for (int i = 0; i < 12; ++i) {
+      numbers >> T.matrix()(i / 4, i % 4);
+    }
+    poses.push_back(T);
+  }
+  return poses;
+}
+
+class PeerScorer : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    scorer_ = shared_folder() / "tools" / "evaltraj.py";
+    if (!fs::exists(scorer_)) {
+      GTEST_SKIP() << "no " << scorer_;
+    }
+    if (output_of("/usr/bin/python3 -c 'import numpy; print(1)' 2>&1") != "1\n") {
+      GTEST_SKIP() << "no /usr/bin/python3 with numpy";
+    }
+    folder_ = fs::temp_directory_path() / ("rilo_peer_scorer_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override {
+    if (!folder_.empty()) {
+      fs::remove_all(folder_);
+    }
+  }
+
+  fs::path write_poses(const std::string& name, const std::vector<SE3>& poses) const {
+    std::ofstream file(folder_ / name);
+    file << std::setprecision(17);
+    for (const SE3& T : poses) {
+      for (int i = 0; i < 12; ++i) {
+        file << T.matrix()(i / 4, i % 4) << (i == 11 ? '\n' : ' ');
+      }
+    }
+    return folder_ / name;
+  }
+
+  /// Figures of the scorer by name, from its one line of JSON.
+  std::map<std::string, double> score(const std::vector<SE3>& truth, const std::vector<SE3>& estimate) const {
+    const std::string command = "/usr/bin/python3 '" + scorer_.string() + "' '" +
+                                write_poses("truth.txt", truth).string() + "' '" +
+                                write_poses("estimate.txt", estimate).string() + "' --json";
+    std::string text = output_of(command);
+    for (char& c : text) {
+      c = c == '{' || c == '}' || c == '"' || c == ':' || c == ',' ? ' ' : c;
+    }
+    std::istringstream words(text);
+    std::map<std::string, double> figures;
+    std::string name;
+    double value = 0;
+    while (words >> name >> value) {
+      figures[name] = value;
+    }
+    return figures;
+  }
+
+  void expect_agreement(const std::vector<SE3>& truth, const std::vector<SE3>& estimate) const {
+    const std::map<std::string, double> peer = score(truth, estimate);
+    ASSERT_EQ(peer.size(), 8U) << "unexpected output of the scorer";
+    const Evaluation ours = evaluate(truth, estimate);
+    const auto near = [&peer](const char* name, double value) {
+      EXPECT_NEAR(value, peer.at(name), kRelative * peer.at(name)) << name;
+    };
+    near("path_m", ours.path_m);
+    near("t_rel_pct", ours.kitti.t_rel_pct().value());
+    near("r_rel_deg_100m", ours.kitti.r_rel_deg_100m().value());
+    near("ape_rmse", ours.ape.translation_m.rmse);
+    near("ape_mean", ours.ape.translation_m.mean);
+    near("ape_std", ours.ape.translation_m.std);
+    near("end_err_m", ours.end_error_m);
+  }
+
+  fs::path scorer_;
+  fs::path folder_;
+};
+
+TEST_F(PeerScorer, AgreesOnRandomDrives) {
+  std::mt19937 random(7);
+  for (const double step : {0.3, 1.0, 2.5}) {  // 90 m: short path; 300 m; 750 m
+    const std::vector<SE3> truth = random_drive(random, 301, step);
+    expect_agreement(truth, with_drift(random, truth, 0.001, 0.01));
+  }
+}
+
+TEST_F(PeerScorer, AgreesOnKittiGroundTruth) {
+  std::mt19937 random(8);
+  for (const char* name : {"00.txt", "01.txt", "03.txt", "04.txt"}) {
+    const fs::path path = shared_folder() / "data" / "kitti_gt" / "poses" / name;
+    if (!fs::exists(path)) {
+      GTEST_SKIP() << "no " << path;
+    }
+    SCOPED_TRACE(name);
+    const std::vector<SE3> truth = read_poses(path);
+    ASSERT_GT(truth.size(), 200U);
+    expect_agreement(truth, with_drift(random, truth, 0.0005, 0.01));
+  }
+}
+
+}  // namespace
+}  // namespace rilo

@@ -21,6 +21,6 @@ print_sources0() {
 build_preset() {
   local preset="$1"
   shift
-  cmake --preset "$preset" --log-level=WARNING
+  cmake --preset "$preset" --log-level=WARNING >/dev/null
   cmake --build --preset "$preset" --parallel "$JOBS" "$@"
 }

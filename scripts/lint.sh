@@ -18,7 +18,7 @@ echo "lint: clang-format"
 xargs -0 clang-format --dry-run -Werror --style=file <build/.lint-files || failed+=("clang-format (scripts/format.sh)")
 
 echo "lint: clang-tidy"
-cmake --preset lint --log-level=WARNING
+cmake --preset lint --log-level=WARNING >/dev/null
 # The longest first, so that the last of them does not run alone at the end; headers are seen through their users.
 tidy() {
   grep -z '\.cpp$' | grep -zv '^tests/consumer/' | xargs -0 ls -S | tr '\n' '\0' |
@@ -33,7 +33,7 @@ if [ $# -eq 0 ]; then
   echo "lint: scripts, documents and paths"
   shellcheck --external-sources scripts/*.sh .ci/run || failed+=("shellcheck")
   scripts/check_links.sh || failed+=("links")
-  # A path such as /home/name/… works on one machine only. The temporary folder comes from the system, never by name.
+  # A path into somebody's home works on one machine only; the temporary folder comes from the system, never by name.
   paths='(^|[^A-Za-z0-9_.~/-])/(root|home|work|tmp|mnt|Users)/[A-Za-z0-9_.]'
   ! grep -rnIE "$paths" . --exclude-dir=.git --exclude-dir=build --exclude-dir=out --exclude-dir=results ||
     failed+=("machine paths")

@@ -7,10 +7,10 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 scripts/setup.sh --lint
 failed=()
 
+mkdir -p build
 if [ $# -gt 0 ]; then
-  printf '%s\0' "$@" >build/.lint-files || die "run scripts/lint.sh once without arguments first"
+  printf '%s\0' "$@" >build/.lint-files
 else
-  mkdir -p build
   print_sources0 >build/.lint-files
 fi
 

@@ -10,7 +10,8 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 build=(build-essential cmake make libeigen3-dev libtbb-dev
-       libcli11-dev libyaml-cpp-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libnanoflann-dev)
+       libcli11-dev libyaml-cpp-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libnanoflann-dev
+       libpng-dev)
 tests=(git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-numpy)
 lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)

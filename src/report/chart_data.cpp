@@ -1,0 +1,117 @@
+#include "chart_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "birds_eye.hpp"
+#include "figures.hpp"
+
+namespace rilo {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Four decimals; JSON has no NaN, so null stands for it.
+Json rounded(double value) { return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4) : Json(nullptr); }
+
+template <typename Row, typename Value>
+Json column(const std::vector<Row>& rows, Value value) {
+  Json result = Json::array();
+  for (const Row& row : rows) {
+    result.push_back(rounded(static_cast<double>(value(row))));
+  }
+  return result;
+}
+
+Json positions(const std::vector<SE3>& poses) {
+  return {{"x", column(poses, [](const SE3& T) { return T.translation().x(); })},
+          {"y", column(poses, [](const SE3& T) { return T.translation().y(); })},
+          {"z", column(poses, [](const SE3& T) { return T.translation().z(); })}};
+}
+
+Json errors(const std::vector<ErrorSample>& series) {
+  return {{"distance", column(series, [](const ErrorSample& s) { return s.distance_m; })},
+          {"translation", column(series, [](const ErrorSample& s) { return s.translation_m; })},
+          {"rotation", column(series, [](const ErrorSample& s) { return s.rotation_deg; })},
+          {"along", column(series, [](const ErrorSample& s) { return s.axis_m.x(); })},
+          {"cross", column(series, [](const ErrorSample& s) { return s.axis_m.y(); })},
+          {"height", column(series, [](const ErrorSample& s) { return s.axis_m.z(); })}};
+}
+
+/// Names once, then one index a sweep.
+Json coded(const std::vector<ReportSweep>& sweeps, std::string ReportSweep::*text) {
+  std::vector<std::string> names;
+  Json codes = Json::array();
+  for (const ReportSweep& sweep : sweeps) {
+    auto found = std::find(names.begin(), names.end(), sweep.*text);
+    if (found == names.end()) {
+      found = names.insert(names.end(), sweep.*text);
+    }
+    codes.push_back(found - names.begin());
+  }
+  return {{"names", names}, {"codes", codes}};
+}
+
+Json sweeps_of(const RunReport& run) {
+  const auto of = [&run](auto member) {
+    return column(run.sweeps, [member](const ReportSweep& s) { return s.*member; });
+  };
+  const TimingFigures t = timing_of(run.sweeps);
+  return {{"total", of(&ReportSweep::total_ms)},
+          {"stages",
+           {{"preprocessing", of(&ReportSweep::preprocess_ms)},
+            {"initial pose", of(&ReportSweep::coarse_ms)},
+            {"registration", of(&ReportSweep::registration_ms)},
+            {"map update", of(&ReportSweep::map_ms)}}},
+          {"iterations", of(&ReportSweep::iterations)},
+          {"inliers", of(&ReportSweep::inlier_ratio)},
+          {"sigma", of(&ReportSweep::sigma_th_m)},
+          {"status", coded(run.sweeps, &ReportSweep::status)},
+          {"initial", coded(run.sweeps, &ReportSweep::initial_pose)},
+          {"median", rounded(t.median_ms)},
+          {"p95", rounded(t.p95_ms)},
+          {"p99", rounded(t.p99_ms)},
+          {"max", rounded(t.max_ms)},
+          {"period", rounded(run.sweep_period_ms)}};
+}
+
+Json map_of(const RunReport& run) {
+  const std::optional<BirdsEyeMap> map = draw_birds_eye(run.map_points, run.estimate);
+  if (!map) {
+    return nullptr;
+  }
+  Json colours = Json::array();
+  for (const Rgba& c : map_colours()) {
+    colours.push_back({c[0], c[1], c[2]});
+  }
+  return {{"url", png_data_url(map->image)},
+          {"width", map->image.width},
+          {"height", map->image.height},
+          {"left", map->min_x_m},
+          {"top", map->max_y_m},
+          {"scale", map->metres_per_pixel},
+          {"colours", colours},
+          {"low", kMapColourLowM},
+          {"high", kMapColourHighM}};
+}
+
+}  // namespace
+
+std::string chart_data(const RunReport& run) {
+  Json data{{"estimate", positions(run.estimate)}, {"truth", positions(run.truth)}};
+  data["errors"] = run.evaluation ? errors(run.evaluation->series) : Json(nullptr);
+  data["sweeps"] = run.sweeps.empty() ? Json(nullptr) : sweeps_of(run);
+  data["map"] = map_of(run);
+  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string safe;  // "</script>" and "<!--" must not appear inside the element
+  safe.reserve(text.size());
+  for (const char c : text) {
+    safe += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  }
+  return safe;
+}
+
+}  // namespace rilo

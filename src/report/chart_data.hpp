@@ -1,0 +1,13 @@
+// What the script in the page draws from.
+#pragma once
+
+#include <string>
+
+#include "rilo/report/run_report.hpp"
+
+namespace rilo {
+
+/// JSON that can stand inside a <script> element: columns of numbers, rounded to what a picture can show.
+std::string chart_data(const RunReport& run);
+
+}  // namespace rilo

@@ -1,0 +1,94 @@
+#include "figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "html_text.hpp"
+#include "rilo/evaluation/alignment.hpp"
+
+namespace rilo {
+
+namespace {
+
+double percentile(const std::vector<double>& sorted, double q) {
+  const double place = q * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+void add_accuracy(const Evaluation& e, std::vector<Figure>& figures) {
+  const std::size_t segments = e.kitti.segments.size();
+  const char* lengths = e.kitti.short_path ? "eighths of 80 % of the path" : "100 … 800 m";
+  figures.push_back({"t_rel", number(e.kitti.t_rel_pct(), 3), "%",
+                     fmt::format("translation drift, mean of {} segments of {}", segments, lengths)});
+  figures.push_back({"r_rel", number(e.kitti.r_rel_deg_100m(), 3), "°/100 m", "rotation drift over the same segments"});
+  figures.push_back(
+      {"APE rmse", number(e.ape.translation_m.rmse, 3), "m",
+       fmt::format("after SE(3) alignment; unaligned {} m", number(e.ape_unaligned.translation_m.rmse, 3))});
+  figures.push_back({"End error", number(e.end_error_m, 2), "m", number(e.end_error_pct, 2) + " % of the path"});
+}
+
+void add_speed(const RunReport& run, std::vector<Figure>& figures) {
+  const TimingFigures t = timing_of(run.sweeps);
+  if (t.max_ms <= 0.0) {
+    return;
+  }
+  figures.push_back({"Time per sweep", number(t.median_ms, 1), "ms",
+                     fmt::format("median; p99 {} ms, max {} ms", number(t.p99_ms, 1), number(t.max_ms, 1))});
+  figures.push_back(
+      {"Real time", number(run.sweep_period_ms / t.mean_ms, 1), "×",
+       fmt::format("{} ms between sweeps, {} ms mean", number(run.sweep_period_ms, 0), number(t.mean_ms, 1))});
+}
+
+}  // namespace
+
+TimingFigures timing_of(const std::vector<ReportSweep>& sweeps) {
+  std::vector<double> ms;
+  double sum = 0;
+  for (const ReportSweep& sweep : sweeps) {
+    if (std::isfinite(sweep.total_ms)) {
+      ms.push_back(sweep.total_ms);
+      sum += sweep.total_ms;
+    }
+  }
+  if (ms.empty()) {
+    return {};
+  }
+  std::sort(ms.begin(), ms.end());
+  return {sum / static_cast<double>(ms.size()), percentile(ms, 0.5), percentile(ms, 0.95), percentile(ms, 0.99),
+          ms.back()};
+}
+
+std::vector<Figure> headline_figures(const RunReport& run) {
+  std::vector<Figure> figures;
+  if (run.evaluation) {
+    add_accuracy(*run.evaluation, figures);
+  }
+  add_speed(run, figures);
+  if (run.peak_rss_mb > 0.0) {
+    figures.push_back({"Peak memory", number(run.peak_rss_mb, 0), "MB", "resident set of the whole process"});
+  }
+  const double path = run.estimate.empty() ? 0.0 : path_lengths(run.estimate).back();
+  figures.push_back({"Distance", number(path, path < 1000.0 ? 1 : 0), "m",
+                     fmt::format("estimated path over {} sweeps", run.estimate.size())});
+  return figures;
+}
+
+std::vector<std::pair<std::string, std::size_t>> status_counts(const std::vector<ReportSweep>& sweeps) {
+  std::vector<std::pair<std::string, std::size_t>> counts;
+  for (const ReportSweep& sweep : sweeps) {
+    const auto known =
+        std::find_if(counts.begin(), counts.end(), [&sweep](const auto& entry) { return entry.first == sweep.status; });
+    if (known == counts.end()) {
+      counts.emplace_back(sweep.status, 1);
+    } else {
+      ++known->second;
+    }
+  }
+  return counts;
+}
+
+}  // namespace rilo

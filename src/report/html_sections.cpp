@@ -1,0 +1,187 @@
+#include "html_sections.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "chart_data.hpp"
+#include "figures.hpp"
+#include "html_text.hpp"
+
+namespace rilo {
+
+namespace {
+
+/// A box of the page: heading, a line that says what is seen, and a chart that the script draws.
+std::string chart_panel(const char* chart, const char* size, const char* heading, const char* caption) {
+  return fmt::format(
+      "<section class=\"panel {1}\"><h3>{2}</h3><p class=\"caption\">{3}</p>"
+      "<div class=\"chart\" data-chart=\"{0}\"></div></section>\n",
+      chart, size, heading, caption);
+}
+
+std::string cards(const RunReport& run) {
+  std::string html = "<div class=\"cards\">\n";
+  for (const Figure& figure : headline_figures(run)) {
+    html += fmt::format(
+        "<div class=\"card\"><div class=\"label\">{}</div><div class=\"value\">{}<span class=\"unit\">{}</span></div>"
+        "<div class=\"note\">{}</div></div>\n",
+        escaped(figure.label), escaped(figure.value), escaped(figure.unit), escaped(figure.note));
+  }
+  return html + "</div>\n";
+}
+
+std::string header(const RunReport& run) {
+  std::string html = fmt::format("<header><h2>{}</h2>\n", title_of(run));
+  if (!run.dataset.empty()) {
+    html += fmt::format("<p class=\"dataset\">{}</p>\n", escaped(run.dataset));
+  }
+  if (!run.notice.empty()) {
+    html += fmt::format("<p class=\"notice\">{}</p>\n", escaped(run.notice));
+  }
+  return html + "</header>\n";
+}
+
+std::string error_row(const char* name, const char* unit, const ErrorSummary& s, int digits) {
+  if (s.count == 0) {
+    return "";
+  }
+  return fmt::format(
+      "<tr><th>{} <span class=\"unit\">{}</span></th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", name, unit,
+      number(s.rmse, digits), number(s.mean, digits), number(s.median, digits), number(s.max, digits));
+}
+
+std::string accuracy_panel(const Evaluation& e) {
+  std::string html =
+      "<section class=\"panel half\"><h3>Accuracy</h3><p class=\"caption\">Aligned: rigid motion without scale. "
+      "Unaligned: first poses made equal.</p><div class=\"scroll\"><table class=\"numbers\"><thead><tr><th></th>"
+      "<th>rmse</th><th>mean</th><th>median</th><th>max</th></tr></thead><tbody>\n";
+  html += error_row("APE aligned", "m", e.ape.translation_m, 3);
+  html += error_row("APE aligned", "°", e.ape.rotation_deg, 3);
+  html += error_row("APE unaligned", "m", e.ape_unaligned.translation_m, 3);
+  html += error_row("APE unaligned", "°", e.ape_unaligned.rotation_deg, 3);
+  html += error_row("RPE per metre", "m/m", e.rpe_metre.translation_m, 4);
+  html += error_row("RPE per metre", "°/m", e.rpe_metre.rotation_deg, 4);
+  html += error_row("RPE per sweep", "m", e.rpe_frame.translation_m, 4);
+  html += error_row("RPE per sweep", "°", e.rpe_frame.rotation_deg, 4);
+  return html + "</tbody></table></div></section>\n";
+}
+
+std::string segment_panel(const KittiError& kitti) {
+  const std::vector<KittiLengthError> rows = kitti.per_length();
+  std::string html =
+      "<section class=\"panel half\"><h3>Drift by segment length</h3><p class=\"caption\">KITTI devkit: starts every "
+      "10 "
+      "sweeps.";
+  html += kitti.short_path ? " The path is below 150 m, so the lengths are eighths of 80 % of it." : "";
+  html += "</p>";
+  if (rows.empty()) {
+    return html + "<p>The path is too short for any segment.</p></section>\n";
+  }
+  html +=
+      "<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th>length <span class=\"unit\">m</span></th>"
+      "<th>segments</th><th>t_rel <span class=\"unit\">%</span></th><th class=\"bar\"></th>"
+      "<th>r_rel <span class=\"unit\">°/100 m</span></th></tr></thead><tbody>\n";
+  double largest = 1e-12;
+  for (const KittiLengthError& row : rows) {
+    largest = std::max(largest, row.t_rel_pct);
+  }
+  for (const KittiLengthError& row : rows) {
+    html += fmt::format(
+        "<tr><th>{}</th><td>{}</td><td>{}</td><td class=\"bar\"><i style=\"width:{:.1f}%\"></i></td><td>{}</td></tr>\n",
+        number(row.length_m, kitti.short_path ? 1 : 0), row.count, number(row.t_rel_pct, 3),
+        100.0 * row.t_rel_pct / largest, number(row.r_rel_deg_100m, 3));
+  }
+  return html + "</tbody></table></div></section>\n";
+}
+
+std::string facts_panel(const RunReport& run) {
+  if (run.facts.empty()) {
+    return "";
+  }
+  std::string html =
+      "<section class=\"panel full\"><h3>How this was made</h3><p class=\"caption\">Everything needed to repeat the "
+      "run."
+      "</p><table class=\"facts\"><tbody>\n";
+  for (const auto& [key, value] : run.facts) {
+    html += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(key), escaped(value));
+  }
+  return html + "</tbody></table></section>\n";
+}
+
+std::string trajectory_panels(const RunReport& run) {
+  const bool with_truth = !run.truth.empty();
+  std::string html = chart_panel("top", "tall", with_truth ? "Trajectory against truth" : "Trajectory",
+                                 "Seen from above, equal axes, metres. Move over it: every chart follows.");
+  html += chart_panel("side", "side", "Side view", "Height z over distance travelled, metres.");
+  if (run.evaluation) {
+    html += chart_panel("error", "side", "Error over distance",
+                        "Distance to the true position, first poses made equal, metres.");
+  } else {
+    html += chart_panel("speed", "side", "Travel per sweep", "Distance between consecutive poses, metres.");
+  }
+  if (!run.map_points.empty()) {
+    html += chart_panel("map", "full", "Map from above",
+                        "Points of the map, coloured by height above the local ground, and the trajectory.");
+  }
+  return html;
+}
+
+std::string sweep_panels() {
+  return chart_panel("timing", "wide", "Time per sweep", "Motion compensation to map update, milliseconds.") +
+         chart_panel("histogram", "narrow", "Distribution of the time", "Sweeps by time, milliseconds.") +
+         chart_panel("status", "full", "Status and initial pose", "What the odometry said about each sweep.") +
+         chart_panel("strips", "full", "Registration, sweep by sweep",
+                     "Adaptive threshold σ_th, share of inliers and iterations of the fine registration.");
+}
+
+}  // namespace
+
+std::string title_of(const RunReport& run) { return run.title.empty() ? "LiDAR odometry run" : escaped(run.title); }
+
+std::string run_section(const RunReport& run) {
+  std::string html = "<article class=\"run\">\n" + header(run) + cards(run) + "<div class=\"grid\">\n";
+  html += run.estimate.empty() ? "" : trajectory_panels(run);
+  if (run.evaluation) {
+    html +=
+        chart_panel("axes", "half", "Drift by axis", "Estimate minus truth along the axes of the true pose, metres.") +
+        chart_panel("rotation", "half", "Rotation error over distance", "First poses made equal, degrees.");
+    html += accuracy_panel(*run.evaluation) + segment_panel(run.evaluation->kitti);
+  }
+  html += run.sweeps.empty() ? "" : sweep_panels();
+  html += facts_panel(run) + "</div>\n";
+  return html + "<script type=\"application/json\">" + chart_data(run) + "</script>\n</article>\n";
+}
+
+std::string comparison_section(const std::vector<RunReport>& runs) {
+  std::vector<std::string> labels;
+  std::string rows;
+  for (const RunReport& run : runs) {
+    for (const Figure& figure : headline_figures(run)) {
+      const std::string label = escaped(figure.label) + " <span class=\"unit\">" + escaped(figure.unit) + "</span>";
+      if (std::find(labels.begin(), labels.end(), label) == labels.end()) {
+        labels.push_back(label);
+      }
+    }
+  }
+  for (const RunReport& run : runs) {
+    const std::vector<Figure> figures = headline_figures(run);
+    rows += "<tr><th>" + title_of(run) + "</th>";
+    for (const std::string& label : labels) {
+      const auto found = std::find_if(figures.begin(), figures.end(), [&label](const Figure& f) {
+        return label.compare(0, f.label.size() + 1, escaped(f.label) + " ") == 0;
+      });
+      rows += "<td>" + (found == figures.end() ? "–" : escaped(found->value)) + "</td>";
+    }
+    rows += "</tr>\n";
+  }
+  std::string html =
+      "<article><div class=\"grid\"><section class=\"panel full\"><h3>Runs compared</h3>"
+      "<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th></th>";
+  for (const std::string& label : labels) {
+    html += "<th>" + label + "</th>";
+  }
+  return html + "</tr></thead><tbody>\n" + rows + "</tbody></table></div></section></div></article>\n";
+}
+
+}  // namespace rilo

@@ -41,7 +41,7 @@ class PrefetchSource final : public ScanSource {
     SourceInfo info;
   };
   void run();
-  Item read_one();
+  Item read_one(bool& last);
   Item pop();
 
   std::unique_ptr<ScanSource> inner_;

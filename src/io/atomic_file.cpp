@@ -1,0 +1,147 @@
+#include "rilo/io/atomic_file.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <fcntl.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "rilo/io/io_error.hpp"
+
+namespace rilo {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+
+std::string remedy_for(int error_number) {
+  switch (error_number) {
+    case ENOSPC:
+    case EDQUOT:
+      return "Free some disk space or write to another disk";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "Choose a folder that you may write to";
+    default:
+      return "Choose another output path";
+  }
+}
+
+// A link is written through: the file that it points to is replaced, the link stays.
+fs::path resolved(const fs::path& target) {
+  std::error_code error;
+  const fs::file_status status = fs::status(target, error);
+  if (fs::exists(status)) {
+    if (!fs::is_regular_file(status)) {
+      throw IoError({target, "", fs::is_directory(status) ? "it is a folder" : "it is not a regular file",
+                     "the name of a file to write", "Give a file name"});
+    }
+    return fs::canonical(target);
+  }
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error)) {
+    throw IoError({target, "", "its folder " + folder.string() + " does not exist", "an existing folder",
+                   "Create the folder or choose another output path"});
+  }
+  return target;
+}
+
+fs::path temporary_name(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  return target.parent_path() / fmt::format(".{}.{}-{}.tmp", target.filename().string(), ::getpid(), counter++);
+}
+
+// The rename itself must survive a power cut; where folders cannot be synced, nothing is lost.
+void sync_folder(const fs::path& target) {
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  (void)::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& target) : target_(resolved(target)) {
+  do {
+    temporary_ = temporary_name(target_);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor_ < 0 && errno == EEXIST);
+  if (descriptor_ < 0) {
+    const int error_number = errno;
+    temporary_.clear();
+    fail("cannot create a file in its folder", error_number);
+  }
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::write(std::string_view bytes) {
+  if (buffer_.size() + bytes.size() > kBufferBytes) flush();
+  if (bytes.size() >= kBufferBytes) {
+    write_at(flushed_, bytes);
+    flushed_ += bytes.size();
+  } else {
+    buffer_.append(bytes);
+  }
+}
+
+void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) {
+  flush();
+  write_at(offset, bytes);
+}
+
+void AtomicFile::commit() {
+  flush();
+  if (::fsync(descriptor_) != 0) fail("cannot write", errno);
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write", errno);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the finished file in place", errno);
+  temporary_.clear();
+  sync_folder(target_);
+}
+
+void AtomicFile::flush() {
+  write_at(flushed_, buffer_);
+  flushed_ += buffer_.size();
+  buffer_.clear();
+}
+
+void AtomicFile::write_at(std::uint64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("cannot write", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    offset += static_cast<std::uint64_t>(written);
+  }
+}
+
+void AtomicFile::discard() noexcept {
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+void AtomicFile::fail(const std::string& action, int error_number) {
+  discard();
+  throw IoError(
+      {target_, "", action + ": " + std::generic_category().message(error_number), "", remedy_for(error_number)});
+}
+
+void write_atomically(const fs::path& target, std::string_view bytes) {
+  AtomicFile file(target);
+  file.write(bytes);
+  file.commit();
+}
+
+void write_atomically(const fs::path& target, const std::function<void(AtomicFile&)>& write) {
+  AtomicFile file(target);
+  write(file);
+  file.commit();
+}
+
+}  // namespace rilo

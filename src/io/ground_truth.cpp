@@ -1,0 +1,113 @@
+#include "rilo/io/ground_truth.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "io/scan_listing.hpp"
+#include "rilo/io/io_error.hpp"
+#include "rilo/io/pose_reader.hpp"
+
+namespace rilo {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+std::optional<SE3> calibration_of(const fs::path& data) {
+  const fs::path file = data / "calib.txt";
+  return is_there(file) ? read_kitti_calibration(file) : std::nullopt;
+}
+
+GroundTruth lidar_frame(const fs::path& file, std::string instant) {
+  return {read_kitti_poses(file), file, "LiDAR frame", std::move(instant), {}};
+}
+
+GroundTruth camera_frame(const fs::path& file, const SE3& T_cam_lidar) {
+  return {camera_to_lidar(read_kitti_poses(file), T_cam_lidar),
+          file,
+          "camera frame, brought to the LiDAR frame with Tr of calib.txt",
+          "stamp",
+          {}};
+}
+
+// KITTI odometry: sequences/NN beside poses/NN.txt.
+fs::path official_poses(const fs::path& data) {
+  std::error_code error;
+  const fs::path folder = fs::canonical(data, error);
+  return folder.parent_path().parent_path() / "poses" / (folder.filename().string() + ".txt");
+}
+
+std::optional<GroundTruth> find_truth(const fs::path& data, TruthInstant instant) {
+  const std::string wanted(to_string(instant));
+  if (const fs::path file = data / ("poses_" + wanted + ".txt"); is_there(file)) return lidar_frame(file, wanted);
+  if (const fs::path file = data / "poses_velo.txt"; is_there(file)) return lidar_frame(file, "stamp");
+  const auto T_cam_lidar = calibration_of(data);
+  if (const fs::path file = data / "poses.txt"; is_there(file)) {
+    if (T_cam_lidar) return camera_frame(file, *T_cam_lidar);
+    GroundTruth truth = lidar_frame(file, "stamp");
+    truth.warnings.emplace_back("no Tr in calib.txt: poses.txt is taken to be in the LiDAR frame");
+    return truth;
+  }
+  const fs::path file = official_poses(data);
+  std::error_code ignored;
+  if (!fs::is_directory(data / "velodyne", ignored) || !is_there(file)) return std::nullopt;
+  if (!T_cam_lidar) {
+    throw IoError({file, "", "poses in the camera frame and no Tr in " + (data / "calib.txt").string(),
+                   "the transform from LiDAR to camera", "Put KITTI's calib.txt into the sequence folder"});
+  }
+  return camera_frame(file, *T_cam_lidar);
+}
+
+void compare_counts(const fs::path& data, GroundTruth& truth) {
+  std::error_code ignored;
+  const fs::path velodyne = data / "velodyne";
+  const std::size_t sweeps =
+      detail::find_sweep_files(fs::is_directory(velodyne, ignored) ? velodyne : data).files.size();
+  const std::size_t poses = truth.T_world_lidar.size();
+  if (poses == sweeps) return;
+  truth.warnings.push_back(truth.file.filename().string() + " has " + std::to_string(poses) + " poses for " +
+                           std::to_string(sweeps) + " sweeps; the first " + std::to_string(std::min(poses, sweeps)) +
+                           " are compared");
+  if (poses > sweeps) truth.T_world_lidar.resize(sweeps);
+}
+
+}  // namespace
+
+std::string_view to_string(TruthInstant value) {
+  switch (value) {
+    case TruthInstant::kStart:
+      return "start";
+    case TruthInstant::kMid:
+      return "mid";
+    case TruthInstant::kEnd:
+      break;
+  }
+  return "end";
+}
+
+std::optional<TruthInstant> parse_truth_instant(std::string_view text) {
+  for (const TruthInstant value : {TruthInstant::kStart, TruthInstant::kMid, TruthInstant::kEnd}) {
+    if (to_string(value) == text) return value;
+  }
+  return std::nullopt;
+}
+
+std::optional<GroundTruth> read_ground_truth(const fs::path& data, TruthInstant instant) {
+  std::error_code ignored;
+  if (!fs::is_directory(data, ignored)) return std::nullopt;
+  auto truth = find_truth(data, instant);
+  if (!truth) return std::nullopt;
+  // Spinning sensors stamp the middle of the sweep (KITTI); the other instants are half a sweep away.
+  if (truth->instant == "stamp" && instant != TruthInstant::kMid) {
+    truth->warnings.push_back(truth->file.filename().string() + " is at the stamps, not at the " +
+                              std::string(to_string(instant)) + " of the sweeps");
+  }
+  compare_counts(data, *truth);
+  return truth;
+}
+
+}  // namespace rilo

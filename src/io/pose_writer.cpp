@@ -1,0 +1,61 @@
+#include "rilo/io/pose_writer.hpp"
+
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "rilo/io/atomic_file.hpp"
+
+namespace rilo {
+namespace {
+
+void append_kitti(std::string& text, const SE3& pose) {
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index column = 0; column < 4; ++column) {
+      fmt::format_to(std::back_inserter(text), "{}{:.12e}", row + column == 0 ? "" : " ", pose(row, column));
+    }
+  }
+  text += '\n';
+}
+
+}  // namespace
+
+void write_kitti_poses(const std::filesystem::path& file, const Trajectory& trajectory) {
+  std::string text;
+  for (const StampedPose& pose : trajectory) append_kitti(text, pose.T_odom_lidar);
+  write_atomically(file, text);
+}
+
+void write_kitti_poses(const std::filesystem::path& file, const std::vector<SE3>& poses) {
+  std::string text;
+  for (const SE3& pose : poses) append_kitti(text, pose);
+  write_atomically(file, text);
+}
+
+void write_kitti_poses_camera(const std::filesystem::path& file, const Trajectory& trajectory, const SE3& T_cam_lidar) {
+  const SE3 T_lidar_cam = T_cam_lidar.inverse();
+  std::string text;
+  for (const StampedPose& pose : trajectory) append_kitti(text, T_cam_lidar * pose.T_odom_lidar * T_lidar_cam);
+  write_atomically(file, text);
+}
+
+void write_tum(const std::filesystem::path& file, const Trajectory& trajectory) {
+  std::string text;
+  for (const StampedPose& pose : trajectory) {
+    const Eigen::Vector3d t = pose.T_odom_lidar.translation();
+    Eigen::Quaterniond q(pose.T_odom_lidar.linear());
+    q.normalize();
+    if (q.w() < 0) q.coeffs() *= -1;
+    fmt::format_to(std::back_inserter(text), "{} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n",
+                   format_stamp(pose.stamp_ns), t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+  }
+  write_atomically(file, text);
+}
+
+void write_stamps(const std::filesystem::path& file, const std::vector<std::int64_t>& stamps_ns) {
+  std::string text;
+  for (const std::int64_t stamp : stamps_ns) text += format_stamp(stamp) + '\n';
+  write_atomically(file, text);
+}
+
+}  // namespace rilo

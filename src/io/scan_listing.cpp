@@ -1,0 +1,181 @@
+#include "io/scan_listing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "io/file_bytes.hpp"
+#include "io/text.hpp"
+#include "rilo/io/io_error.hpp"
+#include "rilo/io/pose_reader.hpp"
+
+namespace rilo::detail {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kNanoseconds = 1e9;
+
+// Median of the gaps that move forward, in s.
+std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps) {
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    if (stamps[i] > stamps[i - 1]) {
+      gaps.push_back((static_cast<double>(stamps[i]) - static_cast<double>(stamps[i - 1])) / kNanoseconds);
+    }
+  }
+  if (gaps.empty()) return std::nullopt;
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  return *middle;
+}
+
+void warn_about_order(ScanListing& listing) {
+  constexpr double kGapPeriods = 1.5;
+  std::size_t backward = 0;
+  std::size_t gaps = 0;
+  for (std::size_t i = 1; i < listing.stamps_ns.size(); ++i) {
+    const double step =
+        (static_cast<double>(listing.stamps_ns[i]) - static_cast<double>(listing.stamps_ns[i - 1])) / kNanoseconds;
+    backward += step <= 0 ? 1 : 0;
+    gaps += step > kGapPeriods * listing.info.period_s ? 1 : 0;
+  }
+  if (backward > 0) {
+    listing.info.warnings.push_back(std::to_string(backward) + " stamps do not come after the one before");
+  }
+  if (gaps > 0)
+    listing.info.warnings.push_back(std::to_string(gaps) + " gaps of more than 1.5 periods between the stamps");
+}
+
+double rate_of_drive(const fs::path& meta_file, double otherwise_s) {
+  const FileBytes bytes = read_file(meta_file);
+  const auto meta = nlohmann::json::parse(bytes.view(), nullptr, false);
+  if (!meta.is_object()) {
+    throw IoError({meta_file, "", "text that is no JSON object", "the drive simulator's description",
+                   "Write the drive again, or remove meta.json to read it as a KITTI sequence"});
+  }
+  const auto rate = meta.find("rate_hz");
+  if (rate == meta.end()) return otherwise_s;
+  constexpr double kLargestRate = 1000;
+  const double rate_hz = rate->is_number() ? rate->get<double>() : 0;
+  if (!(rate_hz > 0 && rate_hz <= kLargestRate)) {
+    throw IoError(
+        {meta_file, "", "rate_hz " + in_quotes(rate->dump()), "a number above 0, at most 1000", "Correct rate_hz"});
+  }
+  return 1 / rate_hz;
+}
+
+void add_point_times(ScanListing& listing, const fs::path& folder) {
+  listing.fraction_files = find_sweep_files(folder).files;
+  if (listing.fraction_files.size() != listing.files.size()) {
+    throw IoError({folder, "", std::to_string(listing.fraction_files.size()) + " files of point times",
+                   "one for each of the " + std::to_string(listing.files.size()) + " sweeps in velodyne",
+                   "Copy or write the drive again, or set point_times to none or azimuth"});
+  }
+  for (std::size_t i = 0; i < listing.files.size(); ++i) {
+    if (listing.fraction_files[i].stem() == listing.files[i].stem()) continue;
+    throw IoError({listing.fraction_files[i], "", "point times beside sweep " + listing.files[i].filename().string(),
+                   "files of the same names", "Copy or write the drive again"});
+  }
+}
+
+void start_listing(ScanListing& listing, const char* kind, const fs::path& path, SweepFiles found) {
+  listing.info.kind = kind;
+  listing.info.format = std::move(found.format);
+  listing.info.path = path;
+  listing.info.sweeps = found.files.size();
+  listing.files = std::move(found.files);
+}
+
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+// times.txt beside the sweeps or above them; the names of the files otherwise.
+std::vector<std::int64_t> find_stamps(const fs::path& stamp_file, const std::vector<fs::path>& files) {
+  if (!is_there(stamp_file)) return stamps_from_names(files);
+  std::vector<std::int64_t> stamps = read_stamps(stamp_file);
+  check_stamp_count(stamp_file, stamps.size(), files.size());
+  return stamps;
+}
+
+void make_a_drive_of(ScanListing& listing, const fs::path& folder, const SourceOptions& options) {
+  const fs::path meta = folder / "meta.json";
+  listing.info.kind = "drive simulator";
+  if (is_there(meta)) {
+    listing.info.period_s = rate_of_drive(meta, listing.info.period_s);
+    listing.period_known = true;
+  }
+  const fs::path times = folder / "times_pt";
+  if (!is_there(times)) return;
+  if (options.point_times == PointTimes::kAuto) add_point_times(listing, times);
+  // Sweeps begin straight behind, and are stamped there.
+  listing.forward_after_s = listing.info.period_s / 2;
+}
+
+}  // namespace
+
+void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const SourceOptions& options) {
+  if (!stamps.empty()) {
+    listing.stamps_ns = std::move(stamps);
+    if (const auto gap = median_gap_s(listing.stamps_ns)) {
+      listing.info.period_s = *gap;
+      listing.period_known = true;
+    } else {
+      listing.info.period_s = 1 / options.assumed_rate_hz;
+    }
+    warn_about_order(listing);
+    return;
+  }
+  listing.info.period_s = 1 / options.assumed_rate_hz;
+  listing.info.stamps_assumed = true;
+  const double period_ns = kNanoseconds / options.assumed_rate_hz;
+  for (std::size_t i = 0; i < listing.files.size(); ++i) {
+    listing.stamps_ns.push_back(std::llround(static_cast<double>(i) * period_ns));
+  }
+}
+
+void check_stamp_count(const fs::path& stamp_file, std::size_t stamps, std::size_t files) {
+  if (stamps == files) return;
+  throw IoError({stamp_file, "", std::to_string(stamps) + " stamps",
+                 "one for each of the " + std::to_string(files) + " sweeps",
+                 "Complete the data, or move times.txt away to assume a constant rate"});
+}
+
+ScanListing list_sequence(const fs::path& folder, const SourceOptions& options) {
+  ScanListing listing;
+  start_listing(listing, "kitti", folder, find_sweep_files(folder / "velodyne"));
+  set_stamps(listing, find_stamps(folder / "times.txt", listing.files), options);
+  if (is_there(folder / "times_pt") || is_there(folder / "meta.json")) make_a_drive_of(listing, folder, options);
+  const fs::path calibration = folder / "calib.txt";
+  if (is_there(calibration)) {
+    listing.info.T_cam_lidar = read_kitti_calibration(calibration);
+    if (!listing.info.T_cam_lidar) listing.info.warnings.push_back("calib.txt has no line Tr: no camera frame");
+  }
+  return listing;
+}
+
+ScanListing list_plain_folder(const fs::path& folder, const SourceOptions& options) {
+  ScanListing listing;
+  start_listing(listing, "folder", folder, find_sweep_files(folder));
+  set_stamps(listing, find_stamps(folder / "times.txt", listing.files), options);
+  return listing;
+}
+
+ScanListing list_single_file(const fs::path& file, const SourceOptions& options) {
+  ScanListing listing;
+  const std::string format = sweep_format(file);
+  if (format.empty()) {
+    throw IoError({file, "", "a file with the extension " + in_quotes(file.extension().string()), ".bin, .pcd or .ply",
+                   "Give a sweep or a folder of sweeps"});
+  }
+  start_listing(listing, "file", file, {format, {file}});
+  set_stamps(listing, stamps_from_names(listing.files), options);
+  return listing;
+}
+
+}  // namespace rilo::detail

@@ -1,0 +1,55 @@
+// The files of a data folder, in order, with their stamps.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "rilo/io/scan_source.hpp"
+
+namespace rilo::detail {
+
+/// What the files are to become a ScanSource.
+struct ScanListing {
+  SourceInfo info;
+  std::vector<std::filesystem::path> files;
+  std::vector<std::int64_t> stamps_ns;                ///< as long as files
+  std::vector<std::filesystem::path> fraction_files;  ///< a drive simulator's times_pt; empty, or as long as files
+  bool period_known = false;                          ///< info.period_s comes from stamps or meta.json
+  double forward_after_s = 0;                         ///< from the stamp to the instant when the sensor faces forward
+};
+
+/// KITTI sequence or drive simulator's folder: it has a subfolder velodyne.
+ScanListing list_sequence(const std::filesystem::path& folder, const SourceOptions& options);
+
+/// Folder of .bin, .pcd or .ply, or one such file.
+ScanListing list_plain_folder(const std::filesystem::path& folder, const SourceOptions& options);
+ScanListing list_single_file(const std::filesystem::path& file, const SourceOptions& options);
+
+/// Sweep files of a folder, all of one kind, in natural order.
+struct SweepFiles {
+  std::string format;  ///< bin, pcd, ply
+  std::vector<std::filesystem::path> files;
+};
+/// @throws IoError when there is none, or more than one kind.
+SweepFiles find_sweep_files(const std::filesystem::path& folder);
+
+/// bin, pcd or ply by the extension, whatever its case; empty for other files.
+std::string sweep_format(const std::filesystem::path& file);
+
+/// Numbers inside the names count as numbers: 2.bin comes before 10.bin.
+bool natural_less(const std::string& a, const std::string& b);
+
+/// Stamps of files named after them: 19 digits are ns, 16 are µs, decimals are seconds. Empty unless all files say so
+/// and the stamps increase.
+std::vector<std::int64_t> stamps_from_names(const std::vector<std::filesystem::path>& files);
+
+/// Sets stamps and period from `stamps`, or from the assumed rate when there are none; adds the warnings.
+void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const SourceOptions& options);
+
+/// @throws IoError unless there are as many stamps as files.
+void check_stamp_count(const std::filesystem::path& stamp_file, std::size_t stamps, std::size_t files);
+
+}  // namespace rilo::detail

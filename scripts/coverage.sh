@@ -10,4 +10,4 @@ ctest --preset coverage --parallel "$JOBS" "$@"
 gcovr --root . --object-directory build/coverage --exclude-unreachable-branches \
   --filter '(src|include/rilo)/(geometry|cloud|map|registration|odometry)/' \
   --html-details build/coverage/coverage.html --print-summary --txt --fail-under-line "${RILO_COVERAGE_MIN:-90}" \
-  build/coverage
+  --exclude-directories ".*/CMakeFiles/[0-9.]*/CompilerIdCXX" build/coverage

@@ -64,6 +64,6 @@ apt() {
     >/dev/null
 }
 
-echo "Installing ${#missing[@]} packages: ${missing[*]}"
+echo "Installing: ${missing[*]}"
 apt update || echo "setup.sh: apt-get update failed; trying with the package lists at hand" >&2
 apt install --yes --no-install-recommends "${missing[@]}" || die "apt-get could not install: ${missing[*]}"

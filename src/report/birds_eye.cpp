@@ -136,7 +136,7 @@ std::vector<Rgba> palette() {
     const double place = static_cast<double>(height) / (kHeightLevels - 1) * static_cast<double>(stops.size() - 1);
     const auto stop = std::min(static_cast<std::size_t>(place), stops.size() - 2);
     for (int density = 0; density < kDensityLevels; ++density) {
-      const double brightness = 0.55 + 0.45 * density / (kDensityLevels - 1);
+      const double brightness = 0.65 + 0.35 * density / (kDensityLevels - 1);
       colours.push_back(mixed(stops[stop], stops[stop + 1], place - static_cast<double>(stop), brightness));
     }
   }
@@ -153,7 +153,7 @@ std::uint8_t colour_index(double height_m, int count) {
 }  // namespace
 
 const std::vector<Rgba>& map_colours() {
-  static const std::vector<Rgba> kColours{{58, 88, 140, 255},  {44, 140, 160, 255}, {70, 185, 130, 255},
+  static const std::vector<Rgba> kColours{{72, 108, 168, 255}, {44, 140, 160, 255}, {70, 185, 130, 255},
                                           {190, 210, 90, 255}, {250, 200, 80, 255}, {245, 140, 70, 255},
                                           {235, 90, 90, 255}};
   return kColours;

@@ -61,11 +61,10 @@ Json sweeps_of(const RunReport& run) {
   };
   const TimingFigures t = timing_of(run.sweeps);
   return {{"total", of(&ReportSweep::total_ms)},
-          {"stages",
-           {{"preprocessing", of(&ReportSweep::preprocess_ms)},
-            {"initial pose", of(&ReportSweep::coarse_ms)},
-            {"registration", of(&ReportSweep::registration_ms)},
-            {"map update", of(&ReportSweep::map_ms)}}},
+          {"stages", Json::array({Json::array({"preprocessing", of(&ReportSweep::preprocess_ms)}),
+                                  Json::array({"initial pose", of(&ReportSweep::coarse_ms)}),
+                                  Json::array({"registration", of(&ReportSweep::registration_ms)}),
+                                  Json::array({"map update", of(&ReportSweep::map_ms)})})},
           {"iterations", of(&ReportSweep::iterations)},
           {"inliers", of(&ReportSweep::inlier_ratio)},
           {"sigma", of(&ReportSweep::sigma_th_m)},

@@ -36,7 +36,7 @@ void add_speed(const RunReport& run, std::vector<Figure>& figures) {
   if (t.max_ms <= 0.0) {
     return;
   }
-  figures.push_back({"Time per sweep", number(t.median_ms, 1), "ms",
+  figures.push_back({"Sweep time", number(t.median_ms, 1), "ms",
                      fmt::format("median; p99 {} ms, max {} ms", number(t.p99_ms, 1), number(t.max_ms, 1))});
   figures.push_back(
       {"Real time", number(run.sweep_period_ms / t.mean_ms, 1), "×",
@@ -71,9 +71,10 @@ std::vector<Figure> headline_figures(const RunReport& run) {
   if (run.peak_rss_mb > 0.0) {
     figures.push_back({"Peak memory", number(run.peak_rss_mb, 0), "MB", "resident set of the whole process"});
   }
-  const double path = run.estimate.empty() ? 0.0 : path_lengths(run.estimate).back();
-  figures.push_back({"Distance", number(path, path < 1000.0 ? 1 : 0), "m",
-                     fmt::format("estimated path over {} sweeps", run.estimate.size())});
+  if (!run.evaluation) {
+    const double path = run.estimate.empty() ? 0.0 : path_lengths(run.estimate).back();
+    figures.push_back({"Distance", number(path, path < 1000.0 ? 1 : 0), "m", "length of the estimated path"});
+  }
   return figures;
 }
 

@@ -31,11 +31,25 @@ std::string cards(const RunReport& run) {
   return html + "</div>\n";
 }
 
+/// Size of the run in one line: sweeps, distance, statuses.
+std::string summary_line(const RunReport& run) {
+  std::string text = fmt::format("{} sweep{}", run.estimate.size(), run.estimate.size() == 1 ? "" : "s");
+  if (!run.estimate.empty()) {
+    const double path_m = run.evaluation ? run.evaluation->path_m : path_lengths(run.estimate).back();
+    text += fmt::format(" · {} m{}", number(path_m, 1), run.evaluation ? " of true path" : "");
+  }
+  for (const auto& [status, count] : status_counts(run.sweeps)) {
+    text += fmt::format(" · {} {}", count, status.empty() ? "without status" : status);
+  }
+  return escaped(text);
+}
+
 std::string header(const RunReport& run) {
   std::string html = fmt::format("<header><h2>{}</h2>\n", title_of(run));
   if (!run.dataset.empty()) {
     html += fmt::format("<p class=\"dataset\">{}</p>\n", escaped(run.dataset));
   }
+  html += fmt::format("<p class=\"summary\">{}</p>\n", summary_line(run));
   if (!run.notice.empty()) {
     html += fmt::format("<p class=\"notice\">{}</p>\n", escaped(run.notice));
   }

@@ -95,7 +95,7 @@
     const m = { left: 50, right: 12, top: 8, bottom: o.xlabel ? 36 : 20 };
     let [x0, x1] = o.xrange, [y0, y1] = o.yrange;
     if (x1 - x0 < 1e-9) { x0 -= 0.5; x1 += 0.5; }
-    if (y1 - y0 < 1e-9) { const pad = Math.abs(y0) * 0.1 || 0.5; y0 -= pad; y1 += pad; }
+    if (y1 - y0 < 1e-9) { const pad = Math.abs(y0) * 0.1 || 0.5; y0 = o.zero && y0 === 0 ? 0 : y0 - pad; y1 += pad; }
     const w = width - m.left - m.right, h = height - m.top - m.bottom;
     const sx = (v) => m.left + (v - x0) / (x1 - x0) * w, sy = (v) => m.top + h - (v - y0) / (y1 - y0) * h;
     let svg = '';
@@ -103,7 +103,7 @@
       svg += `<line class="gridline" x1="${m.left}" x2="${width - m.right}" y1="${px(sy(t.v))}" y2="${px(sy(t.v))}"/>` +
         `<text x="${m.left - 7}" y="${px(sy(t.v) + 4)}" text-anchor="end">${t.text}</text>`;
     }
-    for (const t of ticks(x0, x1, Math.max(2, w / 85))) {
+    for (const t of ticks(x0, x1, Math.max(2, w / 68))) {
       svg += `<line class="gridline" x1="${px(sx(t.v))}" x2="${px(sx(t.v))}" y1="${m.top}" y2="${m.top + h}"/>` +
         `<text x="${px(sx(t.v))}" y="${m.top + h + 15}" text-anchor="middle">${t.text}</text>`;
     }
@@ -125,7 +125,7 @@
     if (finite(o.ymax)) y1 = Math.min(y1, o.ymax);
     const pad = (y1 - y0) * 0.06;
     const a = axes(host, {
-      height: o.height, xlabel: o.xlabel, xrange: range(o.x, ...o.series.map((s) => s.x || [])),
+      height: o.height, xlabel: o.xlabel, zero: o.zero, xrange: range(o.x, ...o.series.map((s) => s.x || [])),
       yrange: [o.zero && y0 === 0 ? 0 : y0 - pad, y1 + pad],
     });
     let svg = a.svg + (o.under ? o.under(a) : '');
@@ -140,6 +140,7 @@
       svg += `<path class="${s.truth ? 'truthline' : 'curve'}" style="stroke:${s.color}" d="${path(x.map(a.sx), ys)}"/>`;
       if (x.length === 1 && finite(ys[0])) svg += `<circle cx="${px(a.sx(x[0]))}" cy="${px(ys[0])}" r="3.5" fill="${s.color}"/>`;
     }
+    svg += o.over ? o.over(a) : '';
     svg += `<line class="cursor" y1="${a.m.top}" y2="${a.m.top + a.h}" visibility="hidden"/>`;
     const view = mount(host, o.legend === undefined ? legend(o.series) : o.legend, svg, a.width, a.height);
     const line = view.svg.querySelector('.cursor');
@@ -159,7 +160,7 @@
   // A view with equal axes of the area [left, right] × [bottom, top]. `inner` draws with the scales it is given.
   const plane = (run, host, o) => {
     const p = run.data.estimate, width = host.clientWidth;
-    const spanX = Math.max(o.right - o.left, 1e-3), spanY = Math.max(o.top - o.bottom, 1e-3);
+    const spanX = Math.max(o.right - o.left, 2), spanY = Math.max(o.top - o.bottom, 2);
     const inset = o.inset, most = Math.min(o.height, Math.max(260, width * 1.15));
     const scale = Math.min((width - 2 * inset) / spanX, (most - 2 * inset) / spanY);
     const height = o.fill ? most : Math.min(most, Math.max(200, spanY * scale + 2 * inset));
@@ -199,7 +200,7 @@
   const pair = (run) => [{ name: 'estimate', color: 'var(--estimate)' },
     ...(run.data.truth.x.length ? [{ name: 'truth', color: 'var(--truth)' }] : [])];
 
-  const statusColor = (name) => ({ ok: 'var(--ok)', recovered: 'var(--info)', initialising: 'var(--d)', degenerate: 'var(--weak)',
+  const statusColor = (name) => ({ ok: 'var(--ok)', recovered: 'var(--back)', initialising: 'var(--d)', degenerate: 'var(--weak)',
     few_correspondences: 'var(--c)', lost: 'var(--bad)', empty: 'var(--other)' })[name] || 'var(--other)';
   const initialColor = (name) => ({ prediction: 'var(--a)', coarse: 'var(--b)', identity: 'var(--d)' })[name] || 'var(--other)';
   const stageColors = ['var(--d)', 'var(--c)', 'var(--a)', 'var(--b)'];
@@ -272,42 +273,48 @@
         linked: run.paired, series: [{ name: 'rotation error', y: e.rotation, color: 'var(--d)', digits: 3, unit: '°' }] });
     },
     timing(run, host) {
-      const s = run.data.sweeps, names = Object.keys(s.stages).filter((name) => s.stages[name].some((v) => v > 0));
+      const s = run.data.sweeps, stages = s.stages.filter(([, column]) => column.some((v) => v > 0));
       const levels = [{ name: 'median', y: s.median, color: 'var(--text)', dash: '6 4' }, { name: 'p95', y: s.p95, color: 'var(--weak)', dash: '6 4' },
         { name: 'p99', y: s.p99, color: 'var(--bad)', dash: '6 4' }, { name: 'sweep period', y: s.period, color: 'var(--other)', dash: '2 4' }];
-      const head = legend([...names.map((name, k) => ({ name, color: stageColors[k], kind: 'box' })),
+      const top = Math.min(s.max, Math.max(2.5 * s.p95, s.max > s.period ? 1.1 * s.period : 0));
+      const above = run.sweep.filter((i) => s.total[i] > 1.06 * top);
+      const head = legend([...stages.map(([name], k) => ({ name, color: stageColors[k], kind: 'box' })),
         ...levels.map((l) => ({ name: l.name, value: `${show(l.y, 1)} ms`, color: l.color, kind: 'dash' })),
-        { name: 'max', value: `${show(s.max, 1)} ms` }]);
+        { name: 'max', value: `${show(s.max, 1)} ms` },
+        ...(above.length ? [{ name: 'beyond the scale', value: String(above.length), color: 'var(--bad)', kind: 'box' }] : [])]);
       curves(run, host, {
-        height: 250, x: run.sweep, zero: true, ymax: Math.max(2.5 * s.p99, 1e-3), levels, legend: head, xlabel: 'sweep', xname: (i) => `sweep ${i}`, linked: true,
-        series: [{ name: 'total', y: s.total, color: names.length ? 'var(--text)' : 'var(--a)', digits: 1, unit: 'ms' }],
-        under: (a) => stacked(a, run.sweep, names.map((name) => s.stages[name])),
+        height: 250, x: run.sweep, zero: true, ymax: top, levels, legend: head, xlabel: 'sweep', xname: (i) => `sweep ${i}`, linked: true,
+        series: [{ name: 'total', y: s.total, color: stages.length ? 'var(--text)' : 'var(--a)', digits: 1, unit: 'ms' }],
+        under: (a) => stacked(a, run.sweep, stages.map(([, column]) => column)),
+        over: (a) => above.map((i) => `<path fill="var(--bad)" d="M${px(a.sx(i) - 4)} ${a.m.top + 7}h8l-4 -7z"/>`).join(''),
       });
     },
     histogram(run, host) {
-      const s = run.data.sweeps, high = Math.min(s.max, 2.5 * s.p99) || 1, bins = Math.min(30, Math.max(6, Math.round(Math.sqrt(s.total.length) * 1.5)));
-      const width = stepOf(high, bins), first = Math.floor(range(s.total)[0] / width), counts = [];
-      for (const v of s.total) {
-        if (!finite(v)) continue;
-        const b = Math.min(Math.floor(v / width), Math.floor(high / width)) - first;
-        counts[b] = (counts[b] || 0) + 1;
-      }
-      const tall = Array.from(counts, (c) => c || 0);
-      const a = axes(host, { height: 250, xlabel: 'ms per sweep', xrange: [first * width, (first + tall.length) * width], yrange: [0, range(tall)[1] * 1.06] });
+      // The rare slow sweeps share the last bar, or they would leave no room for the others.
+      const s = run.data.sweeps, low = range(s.total)[0], high = Math.min(s.max, 2 * s.p95);
+      const width = stepOf(Math.max(high - low, 1e-3), Math.min(30, Math.max(8, 1.5 * Math.sqrt(s.total.length))));
+      const first = Math.floor(low / width), last = Math.floor(high / width) - first;
+      const counts = new Array(last + 1).fill(0);
+      for (const v of s.total) if (finite(v)) ++counts[Math.min(Math.floor(v / width) - first, last)];
+      const beyond = s.total.filter((v) => finite(v) && v >= (first + last + 1) * width).length;
+      const a = axes(host, { height: 250, xlabel: 'ms per sweep', xrange: [first * width, (first + last + 1) * width], yrange: [0, range(counts)[1] * 1.06] });
       let svg = a.svg;
-      tall.forEach((c, b) => {
-        const x = a.sx((first + b) * width), x2 = a.sx((first + b + 1) * width);
-        if (c) svg += `<rect x="${px(x + 0.5)}" y="${px(a.sy(c))}" width="${px(Math.max(1, x2 - x - 1))}" height="${px(a.sy(0) - a.sy(c))}" rx="1.5" fill="var(--a)"/>`;
+      counts.forEach((c, b) => {
+        const x = a.sx((first + b) * width), x2 = a.sx((first + b + 1) * width), color = b === last && beyond ? 'var(--bad)' : 'var(--a)';
+        if (c) svg += `<rect x="${px(x + 0.5)}" y="${px(a.sy(c))}" width="${px(Math.max(1, x2 - x - 1))}" height="${px(a.sy(0) - a.sy(c))}" rx="1.5" fill="${color}"/>`;
       });
       const marks = [['median', s.median, 'var(--text)'], ['p95', s.p95, 'var(--weak)'], ['p99', s.p99, 'var(--bad)']];
       for (const [, v, color] of marks) {
         if (v >= a.x0 && v <= a.x1) svg += `<line class="level" stroke="${color}" stroke-dasharray="6 4" x1="${px(a.sx(v))}" x2="${px(a.sx(v))}" y1="${a.m.top}" y2="${a.m.top + a.h}"/>`;
       }
-      const view = mount(host, legend(marks.map(([name, v, color]) => ({ name, value: `${show(v, 1)} ms`, color, kind: 'dash' }))), svg, a.width, a.height);
+      const entries = marks.map(([name, v, color]) => ({ name, value: `${show(v, 1)} ms`, color, kind: 'dash' }));
+      if (beyond) entries.push({ name: 'beyond the scale', value: String(beyond), color: 'var(--bad)', kind: 'box' });
+      const view = mount(host, legend(entries), svg, a.width, a.height);
       track(view.svg, (x, y) => {
         const b = Math.floor((a.x0 + (x - a.m.left) / a.w * (a.x1 - a.x0)) / width) - first;
-        if (b < 0 || b >= tall.length) { view.tip.hide(); return; }
-        view.tip.at(x, y, [`${show((first + b) * width, 1)} … ${show((first + b + 1) * width, 1)} ms`, `${tall[b]} sweeps`]);
+        if (b < 0 || b > last) { view.tip.hide(); return; }
+        const to = b === last && beyond ? show(s.max, 1) : show((first + b + 1) * width, 1);
+        view.tip.at(x, y, [`${show((first + b) * width, 1)} … ${to} ms`, `${counts[b]} sweeps`]);
       }, view.tip.hide);
     },
     status(run, host) {

@@ -19,11 +19,20 @@ double percentile(const std::vector<double>& sorted, double q) {
   return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
+/// Number and lengths of the segments behind t_rel.
+std::string segments_of(const KittiError& kitti) {
+  const std::vector<KittiLengthError> rows = kitti.per_length();
+  if (rows.empty()) {
+    return "no segment: the path is too short";
+  }
+  const int digits = kitti.short_path ? 1 : 0;
+  return fmt::format("{} segments of {} … {} m", kitti.segments.size(), number(rows.front().length_m, digits),
+                     number(rows.back().length_m, digits));
+}
+
 void add_accuracy(const Evaluation& e, std::vector<Figure>& figures) {
-  const std::size_t segments = e.kitti.segments.size();
-  const char* lengths = e.kitti.short_path ? "eighths of 80 % of the path" : "100 … 800 m";
-  figures.push_back({"t_rel", number(e.kitti.t_rel_pct(), 3), "%",
-                     fmt::format("translation drift, mean of {} segments of {}", segments, lengths)});
+  figures.push_back(
+      {"t_rel", number(e.kitti.t_rel_pct(), 3), "%", "translation drift, mean of " + segments_of(e.kitti)});
   figures.push_back({"r_rel", number(e.kitti.r_rel_deg_100m(), 3), "°/100 m", "rotation drift over the same segments"});
   figures.push_back(
       {"APE rmse", number(e.ape.translation_m.rmse, 3), "m",

@@ -141,10 +141,13 @@ std::string trajectory_panels(const RunReport& run) {
   return html;
 }
 
-std::string sweep_panels() {
-  return chart_panel("timing", "wide", "Time per sweep", "Motion compensation to map update, milliseconds.") +
-         chart_panel("histogram", "narrow", "Distribution of the time", "Sweeps by time, milliseconds.") +
-         chart_panel("status", "full", "Status and initial pose", "What the odometry said about each sweep.") +
+std::string sweep_panels(const RunReport& run) {
+  std::string html;
+  if (timing_of(run.sweeps).max_ms > 0.0) {
+    html += chart_panel("timing", "wide", "Time per sweep", "Motion compensation to map update, milliseconds.") +
+            chart_panel("histogram", "narrow", "Distribution of the time", "Sweeps by time, milliseconds.");
+  }
+  return html + chart_panel("status", "full", "Status and initial pose", "What the odometry said about each sweep.") +
          chart_panel("strips", "full", "Registration, sweep by sweep",
                      "Adaptive threshold σ_th, share of inliers and iterations of the fine registration.");
 }
@@ -162,7 +165,7 @@ std::string run_section(const RunReport& run) {
         chart_panel("rotation", "half", "Rotation error over distance", "First poses made equal, degrees.");
     html += accuracy_panel(*run.evaluation) + segment_panel(run.evaluation->kitti);
   }
-  html += run.sweeps.empty() ? "" : sweep_panels();
+  html += run.sweeps.empty() ? "" : sweep_panels(run);
   html += facts_panel(run) + "</div>\n";
   return html + "<script type=\"application/json\">" + chart_data(run) + "</script>\n</article>\n";
 }

@@ -146,6 +146,7 @@ TEST(HtmlReport, HasTheNumbers) {
   EXPECT_THAT(html, HasSubstr("1.000<span class=\"unit\">%</span>"));  // t_rel
   EXPECT_THAT(html, HasSubstr("3.00<span class=\"unit\">m</span>"));   // end error
   EXPECT_THAT(html, HasSubstr("25.0<span class=\"unit\">ms</span>"));  // median of 10 … 40 ms
+  EXPECT_THAT(html, HasSubstr("mean of 33 segments of 100 … 300 m"));  // 21 + 11 + 1
   EXPECT_THAT(html, HasSubstr("p99 39.7 ms, max 40.0 ms"));
   EXPECT_THAT(html, HasSubstr("4.0<span class=\"unit\">×</span>"));           // 100 ms / 25 ms
   EXPECT_THAT(html, HasSubstr("<tr><th>100</th><td>21</td><td>1.000</td>"));  // starts 0 … 200
@@ -232,6 +233,17 @@ TEST(HtmlReport, StatisticsThatAreNotFinite) {
   expect_sound(html);
   EXPECT_TRUE(data_of(html)[0]["sweeps"]["total"][3].is_null());
   EXPECT_TRUE(data_of(html)[0]["sweeps"]["sigma"][4].is_null());
+}
+
+TEST(HtmlReport, WithoutTimesThereIsNoTimingChart) {
+  RunReport run = drive(10);
+  for (ReportSweep& sweep : run.sweeps) {
+    sweep.total_ms = 0;
+  }
+  const std::string html = page(run);
+  expect_sound(html);
+  EXPECT_THAT(html, Not(HasSubstr("data-chart=\"timing\"")));
+  EXPECT_THAT(html, HasSubstr("data-chart=\"strips\""));
 }
 
 TEST(HtmlReport, PathsBelow150MetresSaySo) { EXPECT_THAT(page(drive(101)), HasSubstr("eighths of 80 %")); }

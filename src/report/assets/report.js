@@ -248,16 +248,16 @@
       const { estimate: p, truth: t } = run.data;
       const series = [{ name: 'estimate', y: p.z, color: 'var(--estimate)', digits: 2, unit: 'm' }];
       if (t.z.length) series.unshift({ name: 'truth', x: distances(t), y: t.z, color: 'var(--truth)', digits: 2, unit: 'm', truth: true });
-      curves(run, host, { height: 200, x: run.distance, series, xlabel: 'distance (m)', xname: run.where, linked: true });
+      curves(run, host, { height: 222, x: run.distance, series, xlabel: 'distance (m)', xname: run.where, linked: true });
     },
     speed(run, host) {
       const step = run.distance.map((d, i) => (i ? d - run.distance[i - 1] : null));
-      curves(run, host, { height: 200, x: run.distance, zero: true, xlabel: 'distance (m)', xname: run.where, linked: true,
+      curves(run, host, { height: 222, x: run.distance, zero: true, xlabel: 'distance (m)', xname: run.where, linked: true,
         series: [{ name: 'travel', y: step, color: 'var(--a)', digits: 3, unit: 'm' }] });
     },
     error(run, host) {
       const e = run.data.errors;
-      curves(run, host, { height: 200, x: e.distance, zero: true, xlabel: 'distance (m)', xname: (i) => `${show(e.distance[i], 1)} m`,
+      curves(run, host, { height: 222, x: e.distance, zero: true, xlabel: 'distance (m)', xname: (i) => `${show(e.distance[i], 1)} m`,
         linked: run.paired, series: [{ name: 'error', y: e.translation, color: 'var(--c)', digits: 3, unit: 'm' }] });
     },
     axes(run, host) {

@@ -19,7 +19,7 @@ struct DriveConfig {
   bool deskewed = false;    ///< points referred to the mid-sweep pose, without times; else each at its own instant
   double noise_m = 0.015;   ///< m, 0 … 0.5: standard deviation of a range
   double dropout = 0.02;    ///< share 0 … 0.9 of returns that are lost
-  double max_range_m = 0;   ///< m, 0: the sensor's own; else 5 … 300, at most the sensor's own
+  double max_range_m = 0;   ///< m, 5 … the sensor's own; 0: the sensor's own
   double elevation_bias_deg = 0;  ///< degrees, -2 … 2: true less reported elevation (KITTI's is near 0.205)
   std::size_t moving_cars = 6;    ///< 0 … 12: some ahead and behind, the others oncoming
   double parked_cars = 0.5;       ///< 0 … 1: share of the parking places that are taken

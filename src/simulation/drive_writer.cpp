@@ -1,0 +1,195 @@
+#include "rilo/simulation/drive_writer.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iomanip>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace rilo {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
+  const std::string reason = error != 0 ? std::generic_category().message(error) : "unknown reason";
+  throw std::runtime_error(path.string() + ": " + what + ": " + reason);
+}
+
+void write_file(const fs::path& path, const void* bytes, std::size_t size) {
+  errno = 0;
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  if (!file) fail(path, "cannot be opened for writing", errno);
+  file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  file.close();
+  if (!file) fail(path, "cannot be written", errno);
+}
+
+void write_text(const fs::path& path, const std::string& text) { write_file(path, text.data(), text.size()); }
+
+void write_floats(const fs::path& path, const std::vector<float>& values) {
+  write_file(path, values.data(), values.size() * sizeof(float));
+}
+
+void create_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error || !fs::is_directory(path, error)) {
+    fail(path, "cannot be created", error ? error.value() : ENOTDIR);
+  }
+}
+
+// Only what an earlier drive left is taken away, never something else that the folder holds.
+void prepare_folder(const fs::path& folder) {
+  static const std::set<std::string> ours = {"velodyne",  "times_pt",      "times.txt",     "calib.txt",
+                                             "poses.txt", "poses_mid.txt", "poses_end.txt", "poses_start.txt",
+                                             "meta.json", "meta.json.tmp"};
+  create_folder(folder);
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (ours.count(it->path().filename().string()) == 0) {
+      throw std::runtime_error(it->path().string() + ": is no part of a simulated drive; choose an empty folder");
+    }
+    found.push_back(it->path());
+  }
+  if (error) fail(folder, "cannot be listed", error.value());
+  // meta.json first: from here on the old drive is recognisably incomplete.
+  fs::remove(folder / "meta.json", error);
+  if (error) fail(folder / "meta.json", "cannot be removed", error.value());
+  for (const fs::path& path : found) {
+    fs::remove_all(path, error);
+    if (error) fail(path, "cannot be removed", error.value());
+  }
+}
+
+std::string file_name(std::size_t i) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "%06zu.bin", i);
+  return name.data();
+}
+
+void write_sweep(const fs::path& folder, std::size_t i, const Sweep& sweep, double period_s) {
+  std::vector<float> values;
+  values.reserve(4 * sweep.points.size());
+  for (std::size_t k = 0; k < sweep.points.size(); ++k) {
+    const Eigen::Vector3f& p = sweep.points[k];
+    values.insert(values.end(), {p.x(), p.y(), p.z(), sweep.intensities[k]});
+  }
+  write_floats(folder / "velodyne" / file_name(i), values);
+  if (sweep.times_s.empty()) return;
+  values.clear();
+  for (const float t : sweep.times_s) values.push_back(static_cast<float>(static_cast<double>(t) / period_s));
+  write_floats(folder / "times_pt" / file_name(i), values);
+}
+
+void append_pose(std::ostream& text, const SE3& T) {
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) text << (row + column > 0 ? " " : "") << T.matrix()(row, column);
+  }
+  text << '\n';
+}
+
+struct PoseTexts {
+  std::ostringstream start, mid, end, times;
+
+  PoseTexts() {
+    for (std::ostringstream* text : {&start, &mid, &end}) *text << std::scientific << std::setprecision(12);
+    times << std::scientific << std::setprecision(9);
+  }
+  void append(const SimulatedSweep& s) {
+    append_pose(start, s.T_odom_lidar_start);
+    append_pose(mid, s.T_odom_lidar_mid);
+    append_pose(end, s.T_odom_lidar_end);
+    times << static_cast<double>(s.sweep.stamp_ns) * 1e-9 << '\n';
+  }
+};
+
+std::string calibration() {
+  const std::string identity = "1 0 0 0 0 1 0 0 0 0 1 0\n";
+  std::string text;
+  for (const char* name : {"P0", "P1", "P2", "P3", "Tr"}) text += std::string(name) + ": " + identity;
+  return text;
+}
+
+std::string description(const DriveSimulator& drive, const DriveSummary& summary) {
+  const DriveConfig& c = drive.config();
+  const bool deskewed = c.deskewed;
+  std::ostringstream text;
+  text << std::setprecision(10) << std::boolalpha;
+  text << "{\n"
+       << "  \"generator\": \"rilo simulate\",\n"
+       << "  \"seed\": " << c.seed << ",\n"
+       << "  \"scene\": \"town\",\n"
+       << "  \"sensor\": \"" << to_string(c.sensor) << "\",\n"
+       << "  \"frames\": " << summary.sweeps << ",\n"
+       << "  \"points\": " << summary.points << ",\n"
+       << "  \"path_m\": " << summary.path_m << ",\n"
+       << "  \"rate_hz\": " << 1 / drive.sensor().period_s << ",\n"
+       << "  \"deskewed\": " << deskewed << ",\n"
+       << "  \"reference_time\": \"" << (deskewed ? "mid" : "end") << " of the sweep\",\n"
+       << "  \"stamps\": \"start of the sweep\",\n"
+       << "  \"points_refer_to\": \""
+       << (deskewed ? "the mid-sweep pose"
+                    : "the sensor's pose at each point's own time (times_pt: fraction of the sweep)")
+       << "\",\n"
+       << "  \"order\": \"firing order, clockwise from straight behind, topmost beam first\",\n"
+       << "  \"start_s\": " << c.start_s << ",\n"
+       << "  \"speed_m_s\": " << c.speed_mps << ",\n"
+       << "  \"range_noise_sigma_m\": " << c.noise_m << ",\n"
+       << "  \"dropout\": " << c.dropout << ",\n"
+       << "  \"range_max_m\": " << (c.max_range_m > 0 ? c.max_range_m : drive.sensor().max_range_m) << ",\n"
+       << "  \"intrinsic_elevation_bias_deg\": " << c.elevation_bias_deg << ",\n"
+       << "  \"moving_cars\": " << c.moving_cars << ",\n"
+       << "  \"parked_cars\": " << c.parked_cars << ",\n"
+       << "  \"trees\": " << c.trees << "\n"
+       << "}\n";
+  return text.str();
+}
+
+void write_texts(const DriveSimulator& drive, const fs::path& folder, const PoseTexts& poses) {
+  write_text(folder / "times.txt", poses.times.str());
+  write_text(folder / "calib.txt", calibration());
+  write_text(folder / "poses_start.txt", poses.start.str());
+  write_text(folder / "poses_mid.txt", poses.mid.str());
+  write_text(folder / "poses_end.txt", poses.end.str());
+  write_text(folder / "poses.txt", drive.config().deskewed ? poses.mid.str() : poses.end.str());
+}
+
+}  // namespace
+
+DriveSummary write_drive(const DriveSimulator& drive, const fs::path& folder, const DriveProgress& progress) {
+  prepare_folder(folder);
+  create_folder(folder / "velodyne");
+  if (!drive.config().deskewed) create_folder(folder / "times_pt");
+  DriveSummary summary;
+  PoseTexts poses;
+  Eigen::Vector3d last = Eigen::Vector3d::Zero();
+  for (bool go_on = true; go_on && summary.sweeps < drive.size();) {
+    const SimulatedSweep s = drive.sweep(summary.sweeps);
+    write_sweep(folder, summary.sweeps, s.sweep, drive.sensor().period_s);
+    poses.append(s);
+    summary.points += s.sweep.points.size();
+    summary.path_m += (s.T_odom_lidar_mid.translation() - last).norm();
+    last = s.T_odom_lidar_mid.translation();
+    ++summary.sweeps;
+    go_on = !progress || progress(summary.sweeps, drive.size());
+  }
+  write_texts(drive, folder, poses);
+  const fs::path temporary = folder / "meta.json.tmp";
+  write_text(temporary, description(drive, summary));
+  std::error_code error;
+  fs::rename(temporary, folder / "meta.json", error);
+  if (error) fail(folder / "meta.json", "cannot be given its name", error.value());
+  return summary;
+}
+
+}  // namespace rilo

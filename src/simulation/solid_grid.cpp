@@ -1,0 +1,68 @@
+#include "simulation/solid_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace rilo::simulation {
+namespace {
+
+constexpr double kCellM = 2.0;
+
+}  // namespace
+
+SolidGrid::SolidGrid(std::vector<Solid> solids, const Eigen::Vector2d& low, const Eigen::Vector2d& high)
+    : solids_(std::move(solids)), low_(low) {
+  columns_ = static_cast<int>(std::ceil((high.x() - low.x()) / kCellM));
+  rows_ = static_cast<int>(std::ceil((high.y() - low.y()) / kCellM));
+  const auto for_each_cell = [this](const Solid& s, const auto& visit) {
+    const CellRange cells = cells_of(s);
+    for (int r = cells.first_row; r <= cells.last_row; ++r) {
+      for (int c = cells.first_column; c <= cells.last_column; ++c) visit(static_cast<std::size_t>(r * columns_ + c));
+    }
+  };
+  // Count, then fill: every cell's members lie side by side.
+  begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+  for (const Solid& s : solids_) for_each_cell(s, [this](std::size_t cell) { ++begin_[cell + 1]; });
+  for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+  members_.resize(begin_.back());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::uint32_t i = 0; i < solids_.size(); ++i) {
+    for_each_cell(solids_[i], [&](std::size_t cell) { members_[next[cell]++] = i; });
+  }
+}
+
+SolidGrid::CellRange SolidGrid::cells_of(const Solid& solid) const {
+  const Eigen::Vector2d first = (solid.centre.head<2>() - solid.extent() - low_) / kCellM;
+  const Eigen::Vector2d last = (solid.centre.head<2>() + solid.extent() - low_) / kCellM;
+  const auto cell = [](double g, int count) { return static_cast<int>(std::clamp(std::floor(g), 0.0, count - 1.0)); };
+  return {cell(first.x(), columns_), cell(last.x(), columns_), cell(first.y(), rows_), cell(last.y(), rows_)};
+}
+
+void SolidGrid::cast(const Ray& ray, Hit& hit) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Eigen::Vector2d g = (ray.origin.head<2>() - low_) / kCellM;
+  Eigen::Array2i cell(static_cast<int>(std::floor(g.x())), static_cast<int>(std::floor(g.y())));
+  Eigen::Array2d next;
+  Eigen::Array2d step;
+  for (int i = 0; i < 2; ++i) {
+    const double d = ray.direction[i];
+    step[i] = d == 0 ? kInfinity : kCellM / std::abs(d);
+    next[i] = d == 0 ? kInfinity : (cell[i] + (d > 0 ? 1 : 0) - g[i]) * kCellM / d;
+  }
+  double range = 0;
+  while (range < hit.range_m && cell.x() >= 0 && cell.x() < columns_ && cell.y() >= 0 && cell.y() < rows_) {
+    const auto index = static_cast<std::size_t>(cell.y() * columns_ + cell.x());
+    for (std::uint32_t k = begin_[index]; k < begin_[index + 1]; ++k) {
+      simulation::cast(solids_[members_[k]], ray, hit);
+    }
+    const int axis = next[0] < next[1] ? 0 : 1;
+    range = next[axis];
+    if (range == kInfinity) return;
+    next[axis] += step[axis];
+    cell[axis] += ray.direction[axis] > 0 ? 1 : -1;
+  }
+}
+
+}  // namespace rilo::simulation

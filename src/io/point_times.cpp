@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include "io/text.hpp"
@@ -13,10 +14,10 @@
 namespace rilo {
 namespace {
 
-// A sweep lasts between 5 ms and 2 s. The range covers less than a factor of 1000, so that at most one of s, ms, µs and
-// ns fits.
-constexpr double kShortestSweep = 0.005;
-constexpr double kLongestSweep = 2.0;
+// Without a known period, a sweep lasts between these (s). The range covers less than a factor of 1000, so that at most
+// one of s, ms, µs and ns fits; times that begin anew in every packet (1.3 ms) fit none.
+constexpr double kShortestSweep = 0.01;
+constexpr double kLongestSweep = 0.55;
 // Around a known period: a narrow sector at one end, jitter at the other.
 constexpr double kLeastOfPeriod = 0.02;
 constexpr double kMostOfPeriod = 1.6;
@@ -42,8 +43,11 @@ double seconds_per(PointTimeUnit unit, double period_s) {
   return 1;
 }
 
-// A point that is no measurement: its time means nothing.
-bool is_measured(const Eigen::Vector3f& point) { return point.allFinite() && !point.isZero(0); }
+// Else the point is no measurement, and its time means nothing.
+bool is_measured(const Eigen::Vector3f& point) {
+  const float square = point.squaredNorm();
+  return square > 0 && square <= std::numeric_limits<float>::max();
+}
 
 std::string number(double value) {
   std::string text(32, '\0');
@@ -54,7 +58,8 @@ std::string number(double value) {
 // One sweep's field and what can be said about it.
 class TimeField {
  public:
-  TimeField(const RawTimes& raw, const std::filesystem::path& file, const Sweep& sweep) : raw_(raw), file_(file) {
+  TimeField(const RawTimes& raw, const std::filesystem::path& file, const Sweep& sweep)
+      : raw_(raw), file_(file), floating_(is_floating(raw.type)) {
     for (std::size_t i = 0; i < sweep.points.size(); ++i) {
       if (!is_measured(sweep.points[i]) || !std::isfinite(value(i))) continue;
       first_ = count_ == 0 || less(i, first_) ? i : first_;
@@ -64,12 +69,10 @@ class TimeField {
   }
 
   bool empty() const { return count_ == 0; }
-  double value(std::size_t i) const {
-    return is_floating(raw_.type) ? raw_.floats[i] : static_cast<double>(raw_.integers[i]);
-  }
+  double value(std::size_t i) const { return floating_ ? raw_.floats[i] : static_cast<double>(raw_.integers[i]); }
   /// Exact for integers, however far they are from zero.
   double since_first(std::size_t i) const {
-    if (is_floating(raw_.type)) return raw_.floats[i] - raw_.floats[first_];
+    if (floating_) return raw_.floats[i] - raw_.floats[first_];
     return difference(raw_.integers[i], raw_.integers[first_]);
   }
   double least() const { return value(first_); }
@@ -90,7 +93,7 @@ class TimeField {
 
  private:
   bool less(std::size_t a, std::size_t b) const {
-    return is_floating(raw_.type) ? raw_.floats[a] < raw_.floats[b] : raw_.integers[a] < raw_.integers[b];
+    return floating_ ? raw_.floats[a] < raw_.floats[b] : raw_.integers[a] < raw_.integers[b];
   }
   static double difference(std::int64_t a, std::int64_t b) {
     std::int64_t exact = 0;
@@ -100,6 +103,7 @@ class TimeField {
 
   const RawTimes& raw_;
   const std::filesystem::path& file_;
+  bool floating_;
   std::size_t count_ = 0;
   std::size_t first_ = 0;
   std::size_t last_ = 0;
@@ -223,6 +227,9 @@ void fill(const TimeField& field, bool from_first, double scale, Sweep& sweep) {
 }  // namespace
 
 void PointTimeDecoder::decode(const RawTimes& raw, const std::filesystem::path& file, Sweep& sweep) {
+  if (raw.size() != sweep.points.size()) {
+    throw std::invalid_argument("PointTimeDecoder: as many times as points are needed");
+  }
   const TimeField field(raw, file, sweep);
   const double period_s = hints_.period_s.value_or(hints_.assumed_period_s);
   const auto scale_of = [&](PointTimeUnit unit) { return seconds_per(unit, period_s); };

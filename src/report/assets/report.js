@@ -224,6 +224,7 @@
           }
           for (let k = Math.ceil((centre[1] - half[1]) / step); k * step <= centre[1] + half[1]; ++k) {
             const y = a.sy(k * step);
+            if (y < 18) continue;  // the labels of x stand there
             svg += `<line class="gridline" x1="0" x2="${a.width}" y1="${px(y)}" y2="${px(y)}"/>`;
             if (y > 24 && y < a.height - 40) svg += `<text x="${a.width - 4}" y="${px(y - 3)}" text-anchor="end">${text(k * step)}</text>`;
           }
@@ -273,19 +274,19 @@
         linked: run.paired, series: [{ name: 'rotation error', y: e.rotation, color: 'var(--d)', digits: 3, unit: '°' }] });
     },
     timing(run, host) {
-      const s = run.data.sweeps, stages = s.stages.filter(([, column]) => column.some((v) => v > 0));
+      const s = run.data.sweeps, stages = s.stages.map(([name, column], k) => ({ name, column, color: stageColors[k] })).filter((stage) => stage.column.some((v) => v > 0));
       const levels = [{ name: 'median', y: s.median, color: 'var(--text)', dash: '6 4' }, { name: 'p95', y: s.p95, color: 'var(--weak)', dash: '6 4' },
         { name: 'p99', y: s.p99, color: 'var(--bad)', dash: '6 4' }, { name: 'sweep period', y: s.period, color: 'var(--other)', dash: '2 4' }];
       const top = Math.min(s.max, Math.max(2.5 * s.p95, s.max > s.period ? 1.1 * s.period : 0));
       const above = run.sweep.filter((i) => s.total[i] > 1.06 * top);
-      const head = legend([...stages.map(([name], k) => ({ name, color: stageColors[k], kind: 'box' })),
+      const head = legend([...stages.map(({ name, color }) => ({ name, color, kind: 'box' })),
         ...levels.map((l) => ({ name: l.name, value: `${show(l.y, 1)} ms`, color: l.color, kind: 'dash' })),
         { name: 'max', value: `${show(s.max, 1)} ms` },
         ...(above.length ? [{ name: 'beyond the scale', value: String(above.length), color: 'var(--bad)', kind: 'box' }] : [])]);
       curves(run, host, {
         height: 250, x: run.sweep, zero: true, ymax: top, levels, legend: head, xlabel: 'sweep', xname: (i) => `sweep ${i}`, linked: true,
         series: [{ name: 'total', y: s.total, color: stages.length ? 'var(--text)' : 'var(--a)', digits: 1, unit: 'ms' }],
-        under: (a) => stacked(a, run.sweep, stages.map(([, column]) => column)),
+        under: (a) => stacked(a, run.sweep, stages),
         over: (a) => above.map((i) => `<path fill="var(--bad)" d="M${px(a.sx(i) - 4)} ${a.m.top + 7}h8l-4 -7z"/>`).join(''),
       });
     },
@@ -362,10 +363,10 @@
   };
 
   // Stages on top of one another, averaged over the sweeps that share a pixel.
-  function stacked(a, x, columns) {
+  function stacked(a, x, stages) {
     const n = x.length, bins = Math.min(n, Math.ceil(a.w)), xs = [], base = new Array(bins).fill(0);
     for (let b = 0; b < bins; ++b) xs.push(a.sx(x[Math.floor((b + 0.5) * n / bins)]));
-    return columns.map((column, k) => {
+    return stages.map(({ column, color }) => {
       const low = base.map((v) => a.sy(Math.min(v, a.y1)));
       for (let b = 0; b < bins; ++b) {
         const from = Math.floor(b * n / bins), to = Math.floor((b + 1) * n / bins);
@@ -375,7 +376,7 @@
       }
       const high = base.map((v) => a.sy(Math.min(v, a.y1)));
       const d = path([...xs, ...xs.slice().reverse()], [...high, ...low.reverse()]);
-      return `<path d="${d}Z" fill="${stageColors[k]}" fill-opacity=".55"/>`;
+      return `<path d="${d}Z" fill="${color}" fill-opacity=".55"/>`;
     }).join('');
   }
 

@@ -69,7 +69,7 @@ auto with_type(ScalarType type, Function&& function) {
 
 template <typename T>
 T load(const char* from, bool big_endian) {
-  std::array<char, sizeof(T)> bytes;
+  std::array<char, sizeof(T)> bytes{};
   std::memcpy(bytes.data(), from, sizeof(T));
   if (big_endian != (std::endian::native == std::endian::big)) std::reverse(bytes.begin(), bytes.end());
   return std::bit_cast<T>(bytes);

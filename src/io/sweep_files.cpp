@@ -68,7 +68,7 @@ FolderContent look_into(const fs::path& folder) {
 }
 
 // 19 digits: ns; 16: µs; 1234567890.123…: s.
-std::optional<std::int64_t> stamp_from_name(std::string name) {
+std::optional<std::int64_t> stamp_from_name(const std::string& name) {
   constexpr std::size_t kNanosecondDigits = 19;
   constexpr std::size_t kMicrosecondDigits = 16;
   constexpr std::size_t kSecondDigits = 9;

@@ -78,8 +78,8 @@ Eigen::Vector2d point_at(const std::vector<Piece>& all, double s) {
 
 const std::vector<CourseCorner>& course_corners() {
   static const std::vector<CourseCorner> corners = {
-      {{0, 0}, 9},   {{92, 0}, 9}, {{92, 38}, 8.5}, {{51, 38}, 10},
-      {{51, 74}, 9}, {{0, 74}, 9}, {{-1, 50}, 90},  {{-1, 26}, 90},
+      {{0, 0}, 11},   {{92, 0}, 11}, {{92, 38}, 11}, {{51, 38}, 11},
+      {{51, 74}, 11}, {{0, 74}, 11}, {{-1, 50}, 90}, {{-1, 26}, 90},
   };
   return corners;
 }

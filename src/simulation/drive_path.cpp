@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kCourseSpacingM = 2.5;
 constexpr double kTimeStepS = 0.25;   // between control values of the distance
-constexpr double kLateralMps2 = 2.0;  // what bends are taken with
-constexpr double kForwardMps2 = 1.6;
-constexpr double kBrakingMps2 = 1.8;
-constexpr double kStopS = 3.0;
+constexpr double kLateralMps2 = 2.5;  // what bends are taken with
+constexpr double kForwardMps2 = 2.0;
+constexpr double kBrakingMps2 = 2.2;
+constexpr double kStopS = 2.4;
 constexpr double kStandingAtStartS = 1.2;  // longer than a spline's reach: time 0 stands still exactly
 constexpr double kSecondStop = 0.56;       // share of the lap
 constexpr double kAfterEndS = 30;          // other cars drive the same plan some seconds ahead

@@ -7,7 +7,7 @@ namespace rilo::simulation {
 namespace {
 
 constexpr double kRasterM = 0.5;
-constexpr double kCloseM = 2e-3;  // a ray this high above a surface has met it, up to one step of Newton
+constexpr double kCloseM = 1e-3;  // a ray this little above a surface has met it
 constexpr int kMostSteps = 200;
 constexpr double kRoadReflectivity = 0.2;
 constexpr double kPavementReflectivity = 0.32;
@@ -120,8 +120,7 @@ void Ground::cast(const Ray& ray, Hit& hit) const {
       continue;
     }
     if (at.street <= kKerbM) return cast_on_road(ray, range, hit.range_m, hit);
-    const double slope = -ray.direction.z();
-    hit.offer(slope > 1e-3 ? range + above / slope : range, std::abs(slope), kPavementReflectivity);
+    hit.offer(range + above / closing, std::abs(ray.direction.z()), kPavementReflectivity);
     return;
   }
 }
@@ -147,8 +146,7 @@ void Ground::cast_on_road(const Ray& ray, double start, double limit, Hit& hit) 
     }
     const double above = p.z() - road_height(at);
     if (above <= kCloseM) {
-      const double fall = -ray.direction.z();
-      hit.offer(fall > 1e-3 ? range + above / fall : range, std::abs(fall), road_reflectivity(p, at.street));
+      hit.offer(range + above / closing, std::abs(ray.direction.z()), road_reflectivity(p, at.street));
       return;
     }
     before = range;

@@ -175,6 +175,7 @@ void cast_canopy(const Solid& s, const Ray& ray, Hit& hit) {
 }  // namespace
 
 Eigen::Vector2d Solid::extent() const {
+  if (kind == SolidKind::kCanopy) return half.head<2>();
   const double c = std::abs(cos_yaw);
   const double t = std::abs(sin_yaw);
   return {c * half.x() + t * half.y(), t * half.x() + c * half.y()};

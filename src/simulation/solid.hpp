@@ -24,7 +24,7 @@ struct Relief {
   std::uint64_t key = 0;  ///< which bays have doors
 };
 
-/// One body, upright, turned about its vertical axis.
+/// One body, upright, turned about its vertical axis (canopies are not turned).
 struct Solid {
   SolidKind kind = SolidKind::kBox;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();

@@ -26,9 +26,18 @@ class SolidGrid {
   struct CellRange {
     int first_column, last_column, first_row, last_row;
   };
+  // Upright cylinder around a body: what most bodies of a cell are ruled out by, without reading them.
+  struct Bounds {
+    Eigen::Vector2d centre;
+    double squared_radius;
+    double low, high;
+  };
   CellRange cells_of(const Solid& solid) const;
+  static Bounds bounds_of(const Solid& solid);
+  void cast_in_cell(std::size_t cell, const Ray& ray, double enter, double leave, Hit& hit) const;
 
   std::vector<Solid> solids_;
+  std::vector<Bounds> bounds_;
   Eigen::Vector2d low_;
   int columns_ = 0, rows_ = 0;
   std::vector<std::uint32_t> begin_;  // of each cell's part of members_

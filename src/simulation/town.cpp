@@ -59,8 +59,8 @@ Town::Town(const DrivePath& path, const TownConfig& config)
       solids_(make_solids(ground_, config), ground_.low(), ground_.high()) {}
 
 void Town::cast(const Ray& ray, Hit& hit) const {
-  solids_.cast(ray, hit);  // first: what stands near bounds the longer way down to the ground
-  ground_.cast(ray, hit);
+  ground_.cast(ray, hit);  // first: it takes a few steps, and bounds the walk through the grid's cells
+  solids_.cast(ray, hit);
 }
 
 }  // namespace rilo::simulation

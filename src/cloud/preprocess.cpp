@@ -7,6 +7,9 @@ namespace rilo {
 
 namespace {
 
+constexpr int kFirstRounds = 3;
+constexpr double kSceneSmoothing = 0.1;  // about a second at 10 Hz
+
 void gather(const TimedCloud& from, const std::vector<std::uint32_t>& indices, TimedCloud& to) {
   to.points.clear();
   to.offsets_s.clear();
@@ -26,14 +29,55 @@ const PreparedSweep& Preprocessor::prepare(const Sweep& sweep) {
   crop(sweep);
   normalise_times(sweep);
   prepared_.valid_points = cropped_.size();
-  gather(cropped_, map_sampler_.sample(cropped_.points, config_.map_voxel_m), prepared_.map_cloud);
-  const TimedCloud& dense = prepared_.map_cloud;
-  gather(dense, source_sampler_.sample(dense.points, config_.source_voxel_m), prepared_.source);
+  if (source_voxel_m_ <= 0.0) {
+    // The first sweep finds the scale of the place; a few rounds are enough because the count goes with about the square.
+    source_voxel_m_ = config_.max_voxel_m;
+    for (int round = 0; round < kFirstRounds; ++round) {
+      downsample(source_voxel_m_);
+      adapt_voxel();
+    }
+  }
+  downsample(source_voxel_m_);
+  adapt_voxel();
+  update_scene_range();
   return prepared_;
+}
+
+void Preprocessor::update_scene_range() {
+  if (prepared_.source.size() == 0) {
+    return;
+  }
+  ranges_.clear();
+  for (const Eigen::Vector3f& p : prepared_.source.points) {
+    ranges_.push_back(p.squaredNorm());
+  }
+  const auto middle = ranges_.begin() + static_cast<std::ptrdiff_t>(ranges_.size() / 2);
+  std::nth_element(ranges_.begin(), middle, ranges_.end());
+  const double median = std::sqrt(static_cast<double>(*middle));
+  double& scene = prepared_.scene_range_m;
+  scene = scene > 0.0 ? scene + kSceneSmoothing * (median - scene) : median;
+}
+
+void Preprocessor::downsample(double source_voxel_m) {
+  const double map_voxel = config_.map_voxel_ratio * source_voxel_m;
+  gather(cropped_, map_sampler_.sample(cropped_.points, map_voxel), prepared_.map_cloud);
+  const TimedCloud& dense = prepared_.map_cloud;
+  gather(dense, source_sampler_.sample(dense.points, source_voxel_m), prepared_.source);
+}
+
+void Preprocessor::adapt_voxel() {
+  if (prepared_.source.size() == 0) {
+    return;
+  }
+  // Points lie on surfaces: their number goes with 1 / voxel².
+  const double ratio = static_cast<double>(prepared_.source.size()) / static_cast<double>(config_.source_points);
+  source_voxel_m_ = std::clamp(source_voxel_m_ * std::sqrt(ratio), config_.min_voxel_m, config_.max_voxel_m);
 }
 
 void Preprocessor::reset() {
   span_known_ = false;
+  source_voxel_m_ = 0.0;
+  prepared_.scene_range_m = 0.0;
 }
 
 void Preprocessor::crop(const Sweep& sweep) {

@@ -1,5 +1,8 @@
 #include "rilo/map/local_map.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace rilo {
 
 LocalMap::LocalMap(const LocalMapConfig& config) : config_(config) {
@@ -10,16 +13,26 @@ void LocalMap::clear() {
   grids_.clear();
   double voxel = config_.voxel_m;
   for (int level = 0; level < config_.levels; ++level, voxel *= 2.0) {
-    grids_.emplace_back(voxel, PlaneCriteria{config_.min_points, config_.max_points, config_.max_planarity,
-                                             config_.min_extent * voxel});
+    grids_.emplace_back(
+        voxel, PlaneCriteria{config_.min_points, config_.max_points, config_.max_planarity, config_.min_extent * voxel});
   }
 }
 
+void LocalMap::set_scene_range(double range_m) {
+  const double level = std::round(std::log2(range_m / (config_.scene_voxels * config_.voxel_m)));
+  // The coarsest level alone would leave edges and small things out: the one below it is always in use.
+  const double last = std::max(0.0, static_cast<double>(config_.levels) - 2.0);
+  finest_ = static_cast<std::size_t>(std::clamp(level, 0.0, last));
+}
+
 void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar) {
-  for (PlaneGrid& grid : grids_) {
-    for (const Eigen::Vector3f& p : points) {
-      grid.insert(T_odom_lidar * p.cast<double>());
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Vector3d world = T_odom_lidar * p.cast<double>();
+    for (std::size_t level = finest_; level < grids_.size(); ++level) {
+      grids_[level].insert(world);
     }
+  }
+  for (PlaneGrid& grid : grids_) {
     grid.refit();
   }
 }
@@ -31,18 +44,31 @@ void LocalMap::evict(const Eigen::Vector3d& centre) {
 }
 
 bool LocalMap::find(const Eigen::Vector3d& p, MapPlane& plane) const {
-  for (const PlaneGrid& grid : grids_) {
-    if (grid.find(p, plane)) {
+  for (std::size_t level = finest_; level < grids_.size(); ++level) {
+    if (grids_[level].find(p, plane)) {
       return true;
     }
   }
   return false;
 }
 
+std::size_t LocalMap::size() const {
+  std::size_t voxels = 0;
+  for (const PlaneGrid& grid : grids_) {
+    voxels += grid.size();
+  }
+  return voxels;
+}
+
 std::vector<Eigen::Vector3f> LocalMap::points() const {
   std::vector<Eigen::Vector3f> out;
-  out.reserve(size());
-  grids_.front().centroids(out);
+  for (std::size_t level = 0; level < grids_.size(); ++level) {
+    std::vector<Eigen::Vector3f> centroids;
+    grids_[level].centroids(centroids);
+    std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(out), [&](const Eigen::Vector3f& p) {
+      return level == 0 || !grids_[level - 1].occupied(p.cast<double>());
+    });
+  }
   return out;
 }
 

@@ -9,6 +9,7 @@ namespace rilo {
 
 namespace {
 constexpr std::size_t kFirstSlots = 1U << 12U;
+constexpr double kFaceShare = 0.2;  // a face is near within this share of the voxel
 }
 
 PlaneGrid::PlaneGrid(double voxel_m, const PlaneCriteria& criteria)
@@ -70,6 +71,24 @@ void PlaneGrid::fit(Voxel& voxel) const {
 
 bool PlaneGrid::find(const Eigen::Vector3d& p, MapPlane& plane) const {
   const VoxelIndex index = voxel_of(p, inverse_);
+  if (plane_of(index, plane)) {
+    return true;
+  }
+  const Eigen::Vector3d offset = (p - centre_of(index)) * inverse_;  // −½ … ½
+  Eigen::Index axis = 0;
+  if (offset.cwiseAbs().maxCoeff(&axis) < 0.5 - kFaceShare) {
+    return false;
+  }
+  const int step = offset[axis] > 0.0 ? 1 : -1;
+  const VoxelIndex behind{index.x + (axis == 0 ? step : 0), index.y + (axis == 1 ? step : 0), index.z + (axis == 2 ? step : 0)};
+  return plane_of(behind, plane);
+}
+
+bool PlaneGrid::occupied(const Eigen::Vector3d& p) const {
+  return find_voxel(voxel_key(voxel_of(p, inverse_))) != kNone;
+}
+
+bool PlaneGrid::plane_of(const VoxelIndex& index, MapPlane& plane) const {
   const std::uint32_t id = find_voxel(voxel_key(index));
   if (id == kNone || pool_[id].thickness < 0.0F) {
     return false;

@@ -1,7 +1,7 @@
 #include "rilo/odometry/odometry.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <tbb/task_arena.h>
@@ -10,16 +10,28 @@
 #include "rilo/cloud/preprocess.hpp"
 #include "rilo/map/local_map.hpp"
 #include "rilo/odometry/adaptive_threshold.hpp"
+#include "rilo/odometry/health.hpp"
+#include "rilo/odometry/initial_pose.hpp"
 #include "rilo/odometry/motion_prediction.hpp"
+#include "rilo/odometry/motion_prior.hpp"
 #include "rilo/registration/adaptive_icp.hpp"
 
 namespace rilo {
 
+namespace {
+constexpr std::int64_t kDefaultPeriodNs = 100'000'000;  // until two stamps are known
+constexpr std::size_t kStartSweeps = 3;                 // the prediction means nothing before
+constexpr int kFirstSweepRounds = 2;
+}  // namespace
+
 class Odometry::Impl {
  public:
   Impl(const OdometryConfig& config, Clock clock)
-      : config_(config), clock_(std::move(clock)), arena_(config.threads > 0 ? config.threads : tbb::task_arena::automatic),
-        preprocessor_(config.preprocess), threshold_(config.threshold), map_(config.map) {}
+      : config_(config), clock_(std::move(clock)),
+        arena_(config.threads > 0 ? config.threads : tbb::task_arena::automatic), preprocessor_(config.preprocess),
+        initial_pose_(config.initial_pose, config.coarse), threshold_(config.threshold), map_(config.map) {
+    validate(config);
+  }
 
   SweepResult register_sweep(const Sweep& sweep) {
     SweepResult result;
@@ -27,102 +39,236 @@ class Odometry::Impl {
     return result;
   }
 
-  SweepResult process(const Sweep& sweep);
+  void reset();
 
-  MotionPrior motion_prior(double dt) const;
+  const Trajectory& trajectory() const { return trajectory_; }
+  const LocalMap& map() const { return map_; }
+  const std::vector<Eigen::Vector3f>& map_points() const { return map_points_; }
+
+ private:
+  SweepResult process(const Sweep& sweep);
+  SweepResult start(const PreparedSweep& prepared, SweepResult result);
+  void register_prepared(const PreparedSweep& prepared, SweepResult& result);
+  IcpResult fine_registration(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init, double dt_s,
+                              double sigma_th_m);
+  IcpResult with_first_sweep_compensated(const PreparedSweep& prepared, IcpResult icp, double dt_s, double sigma_th_m);
+  void accept(const PreparedSweep& prepared, const IcpResult& icp, const SE3& T_init, double score, SweepResult& result);
+  void lose(const PreparedSweep& prepared, const MotionState& predicted, SweepResult& result);
+  void insert(const TimedCloud& cloud);
+  std::int64_t usable_stamp(std::int64_t stamp_ns) const;
+  std::int64_t now() const { return clock_ ? clock_() : 0; }
+  double ms_since(std::int64_t& mark) const;
 
   OdometryConfig config_;
   Clock clock_;
   tbb::task_arena arena_;
   Preprocessor preprocessor_;
+  InitialPoseStage initial_pose_;
   AdaptiveThreshold threshold_;
   LocalMap map_;
   Trajectory trajectory_;
   MotionState state_;
-  Matrix6d velocity_covariance_ = Matrix6d::Zero();
+  Matrix6d velocity_covariance_ = unknown_velocity_covariance();
+  Eigen::Vector3d last_step_ = Eigen::Vector3d::Zero();  // displacement of the last sweep, sensor frame
+  int lost_sweeps_ = 0;
   TimedCloud first_cloud_;
   std::vector<Eigen::Vector3f> map_points_;
 };
 
-MotionPrior Odometry::Impl::motion_prior(double dt) const {
-  MotionPrior prior;
-  prior.state.twist = state_.twist;
-  prior.state.T_odom_lidar = state_.T_odom_lidar * se3_exp(dt * state_.twist);
-  Vector6d q;
-  const double qr = config_.icp.angular_acceleration_rad_s2;
-  const double qt = config_.icp.acceleration_m_s2;
-  q << Eigen::Vector3d::Constant(qr * qr * 0.1), Eigen::Vector3d::Constant(qt * qt * 0.1);
-  Matrix12d P;
-  const Matrix6d& V = velocity_covariance_;
-  const Matrix6d Q = q.asDiagonal();
-  P << dt * dt * V + dt * dt * dt / 3.0 * Q, dt * V + dt * dt / 2.0 * Q, dt * V + dt * dt / 2.0 * Q, V + dt * Q;
-  prior.information = P.ldlt().solve(Matrix12d::Identity());
-  prior.information = 0.5 * (prior.information + prior.information.transpose()).eval();
-  return prior;
-}
-
 SweepResult Odometry::Impl::process(const Sweep& sweep) {
   SweepResult result;
-  const std::int64_t t0 = clock_ ? clock_() : 0;
+  std::int64_t mark = now();
+  const std::int64_t begin = mark;
   const PreparedSweep& prepared = preprocessor_.prepare(sweep);
-  const std::int64_t t1 = clock_ ? clock_() : 0;
-  result.stamp_ns = prepared.mid_stamp_ns;
-  const double sigma = threshold_.sigma_th_m();
-  result.stats.sigma_th_m = sigma;
-  std::int64_t t2 = t1;
-  if (trajectory_.empty()) {
-    velocity_covariance_.setZero();
-    velocity_covariance_.diagonal() << 1.0, 1.0, 1.0, 100.0, 100.0, 100.0;
-    first_cloud_ = prepared.map_cloud;
-  } else {
-    const double dt = static_cast<double>(result.stamp_ns - trajectory_.back().stamp_ns) * 1e-9;
-    const MotionPrior prior = motion_prior(dt);
-    MotionState initial = prior.state;
-    initial.T_odom_lidar = predict_pose(trajectory_, result.stamp_ns, sigma, config_.prediction);
-    if (trajectory_.size() < 2) {
-      initial = prior.state;
-    }
-    const IcpResult icp = adaptive_icp(prepared.source, map_, initial, prior, sigma, config_.icp);
-    t2 = clock_ ? clock_() : 0;
-    const SE3 before = trajectory_.back().T_odom_lidar;
-    state_ = icp.state;
-    state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
-    const Matrix12d cov = icp.posterior_information.ldlt().solve(Matrix12d::Identity());
-    velocity_covariance_ = cov.bottomRightCorner<6, 6>();
-    result.stats.iterations = icp.iterations;
-    result.stats.converged = icp.converged;
-    result.stats.inliers = icp.inliers;
-    result.stats.residual_rms_m = icp.residual_rms_m;
-    Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
-    if (trajectory_.size() >= 2) {
-      const SE3& T1 = trajectory_[trajectory_.size() - 2].T_odom_lidar;
-      acceleration = (before.inverse() * state_.T_odom_lidar).translation() - (T1.inverse() * before).translation();
-      threshold_.update(initial.T_odom_lidar, state_.T_odom_lidar, acceleration);
-    }
-    if (trajectory_.size() == 1 && first_cloud_.timed()) {
-      map_.clear();
-      deskew(first_cloud_, state_.twist, map_points_);
-      map_.insert(map_points_, SE3::Identity());
-    }
-    result.stats.gamma = threshold_.gamma();
-    result.stats.deviation_m = threshold_.deviation_m();
-    result.status = OdometryStatus::kOk;
-  }
-  result.T_odom_lidar = state_.T_odom_lidar;
-  result.twist = state_.twist;
-  trajectory_.push_back({result.stamp_ns, state_.T_odom_lidar});
-  deskew(prepared.map_cloud, state_.twist, map_points_);
-  map_.insert(map_points_, state_.T_odom_lidar);
-  map_.evict(state_.T_odom_lidar.translation());
-  const std::int64_t t3 = clock_ ? clock_() : 0;
   result.stats.points_in = sweep.points.size();
   result.stats.points_valid = prepared.valid_points;
   result.stats.points_map = prepared.map_cloud.size();
   result.stats.points_source = prepared.source.size();
+  result.stats.times.preprocess_ms = ms_since(mark);
+  result.stamp_ns = usable_stamp(prepared.mid_stamp_ns);
+  if (trajectory_.empty()) {
+    result = start(prepared, result);
+  } else {
+    register_prepared(prepared, result);
+  }
+  result.T_odom_lidar = state_.T_odom_lidar;
+  result.twist = state_.twist;
   result.stats.map_voxels = map_.size();
-  result.stats.times = {static_cast<double>(t1 - t0) * 1e-6, 0, 0, static_cast<double>(t2 - t1) * 1e-6,
-                        static_cast<double>(t3 - t2) * 1e-6, static_cast<double>(t3 - t0) * 1e-6};
+  trajectory_.push_back({result.stamp_ns, state_.T_odom_lidar});
+  mark = begin;
+  result.stats.times.total_ms = ms_since(mark);
   return result;
+}
+
+SweepResult Odometry::Impl::start(const PreparedSweep& prepared, SweepResult result) {
+  result.status = prepared.source.points.empty() ? OdometryStatus::kEmpty : OdometryStatus::kInitialising;
+  map_.set_scene_range(prepared.scene_range_m);
+  first_cloud_ = prepared.map_cloud;
+  insert(prepared.map_cloud);
+  initial_pose_.keep_target(prepared.source, state_.twist);
+  return result;
+}
+
+void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResult& result) {
+  std::int64_t mark = now();
+  const double dt_s = static_cast<double>(result.stamp_ns - trajectory_.back().stamp_ns) * 1e-9;
+  const double sigma_th_m = threshold_.sigma_th_m();
+  result.stats.sigma_th_m = sigma_th_m;
+  map_.set_scene_range(prepared.scene_range_m);
+
+  // Motion prediction (III-B), coarse registration (III-A) and choice of the initial pose (III-B).
+  MotionState predicted{predict_pose(trajectory_, result.stamp_ns, sigma_th_m, config_.prediction), state_.twist};
+  if (prepared.source.points.empty()) {
+    lose(prepared, predicted, result);
+    result.status = OdometryStatus::kEmpty;
+    return;
+  }
+  const bool in_doubt = trajectory_.size() < kStartSweeps || lost_sweeps_ > 0;
+  const InitialPose init =
+      initial_pose_.choose(prepared.source, predicted, trajectory_.back().T_odom_lidar, dt_s, map_, in_doubt);
+  result.stats.initial_pose = init.source;
+  result.stats.initial_pose_reason = init.reason;
+  result.stats.coarse_ran = init.coarse_ran;
+  result.stats.coarse_iterations = init.coarse_iterations;
+  result.stats.pred_align_distance_m = init.pred_align_distance_m;
+  result.stats.prediction_score = init.prediction_score;
+  result.stats.times.initial_pose_ms = ms_since(mark);
+
+  // Adaptive ICP (III-D).
+  IcpResult icp = fine_registration(prepared, predicted, init, dt_s, sigma_th_m);
+  if (trajectory_.size() == 1) {
+    icp = with_first_sweep_compensated(prepared, std::move(icp), dt_s, sigma_th_m);
+  }
+  result.stats.iterations = icp.iterations;
+  result.stats.converged = icp.converged;
+  result.stats.inliers = icp.inliers;
+  result.stats.inlier_ratio = static_cast<double>(icp.inliers) / static_cast<double>(prepared.source.size());
+  result.stats.residual_rms_m = icp.residual_rms_m;
+  for (std::size_t i = 0; i < result.stats.relative_eigenvalues.size(); ++i) {
+    result.stats.relative_eigenvalues[i] = icp.degeneracy.relative_eigenvalues[static_cast<Eigen::Index>(i)];
+  }
+  result.stats.times.registration_ms = ms_since(mark);
+
+  // Health, adaptive threshold (III-C) and local map.
+  const double score = initial_pose_.score(prepared.source, icp.state, map_);
+  result.stats.map_score = score;
+  result.status = judge(icp, {prepared.source.size(), score, initial_pose_.usual_score(), lost_sweeps_ > 0}, config_.health);
+  if (result.status == OdometryStatus::kLost) {
+    lose(prepared, predicted, result);
+  } else {
+    accept(prepared, icp, init.T_odom_lidar, score, result);
+  }
+  result.stats.times.map_ms = ms_since(mark);
+}
+
+IcpResult Odometry::Impl::fine_registration(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init,
+                                            double dt_s, double sigma_th_m) {
+  MotionState initial = predicted;
+  MotionState expected = state_;
+  expected.T_odom_lidar = state_.T_odom_lidar * se3_exp(dt_s * state_.twist);
+  Matrix6d covariance = velocity_covariance_;
+  if (init.source == InitialPoseSource::kCoarse) {
+    // The sweep has just refuted the prediction: start from the coarse result, with the velocity that it implies.
+    initial.T_odom_lidar = init.T_odom_lidar;
+    initial.twist = se3_log(trajectory_.back().T_odom_lidar.inverse() * init.T_odom_lidar) / dt_s;
+    expected = initial;
+    covariance = unknown_velocity_covariance();
+  }
+  const MotionPrior prior = motion_prior(expected, covariance, dt_s, config_.prior);
+  return adaptive_icp(prepared.source, map_, initial, prior, sigma_th_m, config_.icp);
+}
+
+IcpResult Odometry::Impl::with_first_sweep_compensated(const PreparedSweep& prepared, IcpResult icp, double dt_s,
+                                                       double sigma_th_m) {
+  if (!first_cloud_.timed()) {
+    return icp;
+  }
+  // The first sweep went into the map as if the sensor had stood still. Now that its velocity is known, it is put right.
+  for (int round = 0; round < kFirstSweepRounds; ++round) {
+    map_.clear();
+    state_.twist = icp.state.twist;
+    insert(first_cloud_);
+    const MotionPrior prior = motion_prior(icp.state, unknown_velocity_covariance(), dt_s, config_.prior);
+    const int iterations = icp.iterations;
+    icp = adaptive_icp(prepared.source, map_, icp.state, prior, sigma_th_m, config_.icp);
+    icp.iterations += iterations;
+  }
+  return icp;
+}
+
+void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp, const SE3& T_init, double score,
+                            SweepResult& result) {
+  const SE3 previous = state_.T_odom_lidar;
+  state_ = icp.state;
+  state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
+  const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());
+  velocity_covariance_ = covariance.bottomRightCorner<6, 6>();
+  // The registration perturbs rotation and translation along the axes of the odometry frame; the result is in the sensor's own.
+  const Eigen::Matrix3d R = state_.T_odom_lidar.linear();
+  Matrix6d to_body = Matrix6d::Zero();
+  to_body.topLeftCorner<3, 3>() = R.transpose();
+  to_body.bottomRightCorner<3, 3>() = R.transpose();
+  result.covariance = to_body * covariance.topLeftCorner<6, 6>() * to_body.transpose();
+
+  const Eigen::Vector3d step = (previous.inverse() * state_.T_odom_lidar).translation();
+  if (trajectory_.size() >= 2) {
+    threshold_.update(T_init, state_.T_odom_lidar, step - last_step_);
+    result.stats.gamma = threshold_.gamma();
+    result.stats.deviation_m = threshold_.deviation_m();
+  }
+  last_step_ = step;
+  lost_sweeps_ = 0;
+  initial_pose_.learn(score);
+  initial_pose_.keep_target(prepared.source, state_.twist);
+  insert(prepared.map_cloud);
+}
+
+void Odometry::Impl::lose(const PreparedSweep& prepared, const MotionState& predicted, SweepResult& result) {
+  state_ = predicted;
+  velocity_covariance_ = unknown_velocity_covariance();
+  result.covariance = unknown_velocity_covariance();
+  threshold_.widen();
+  if (++lost_sweeps_ == config_.health.restart_after) {
+    // The old map does not fit any more, and waiting longer will not help: go on from here.
+    map_.clear();
+    initial_pose_.reset();
+    insert(prepared.map_cloud);
+    initial_pose_.keep_target(prepared.source, state_.twist);
+  }
+}
+
+void Odometry::Impl::insert(const TimedCloud& cloud) {
+  deskew(cloud, state_.twist, map_points_);
+  map_.insert(map_points_, state_.T_odom_lidar);
+  map_.evict(state_.T_odom_lidar.translation());
+}
+
+std::int64_t Odometry::Impl::usable_stamp(std::int64_t stamp_ns) const {
+  if (trajectory_.empty() || stamp_ns > trajectory_.back().stamp_ns) {
+    return stamp_ns;
+  }
+  const std::size_t n = trajectory_.size();
+  const std::int64_t period = n < 2 ? kDefaultPeriodNs : trajectory_[n - 1].stamp_ns - trajectory_[n - 2].stamp_ns;
+  return trajectory_.back().stamp_ns + period;
+}
+
+double Odometry::Impl::ms_since(std::int64_t& mark) const {
+  const std::int64_t last = std::exchange(mark, now());
+  return static_cast<double>(mark - last) * 1e-6;
+}
+
+void Odometry::Impl::reset() {
+  preprocessor_.reset();
+  initial_pose_.reset();
+  threshold_.reset();
+  map_.clear();
+  trajectory_.clear();
+  state_ = MotionState{};
+  velocity_covariance_ = unknown_velocity_covariance();
+  last_step_.setZero();
+  lost_sweeps_ = 0;
+  first_cloud_ = TimedCloud{};
+  map_points_.clear();
 }
 
 Odometry::Odometry(const OdometryConfig& config, Clock clock) : impl_(std::make_unique<Impl>(config, std::move(clock))) {}
@@ -130,10 +276,24 @@ Odometry::~Odometry() = default;
 Odometry::Odometry(Odometry&&) noexcept = default;
 Odometry& Odometry::operator=(Odometry&&) noexcept = default;
 
-SweepResult Odometry::register_sweep(const Sweep& sweep) { return impl_->register_sweep(sweep); }
-const Trajectory& Odometry::trajectory() const { return impl_->trajectory_; }
-std::vector<Eigen::Vector3f> Odometry::local_map() const { return impl_->map_.points(); }
-const std::vector<Eigen::Vector3f>& Odometry::last_map_points() const { return impl_->map_points_; }
-void Odometry::reset() {}
+SweepResult Odometry::register_sweep(const Sweep& sweep) {
+  return impl_->register_sweep(sweep);
+}
+
+const Trajectory& Odometry::trajectory() const {
+  return impl_->trajectory();
+}
+
+std::vector<Eigen::Vector3f> Odometry::local_map() const {
+  return impl_->map().points();
+}
+
+const std::vector<Eigen::Vector3f>& Odometry::last_map_points() const {
+  return impl_->map_points();
+}
+
+void Odometry::reset() {
+  impl_->reset();
+}
 
 }  // namespace rilo

@@ -12,6 +12,12 @@ namespace rilo {
 
 namespace {
 
+constexpr std::size_t kLeastCorrespondences = 10;
+// Below this many points a stride saves nothing and loses accuracy.
+constexpr std::size_t kLeastForStride = 4000;
+// The strided cloud need not converge as far as the whole one: what is left is below the noise of its sample.
+constexpr double kCoarseTolerance = 10.0;
+
 Vector12d prior_error(const MotionPrior& prior, const MotionState& state) {
   Vector12d e;
   const SE3& T = state.T_odom_lidar;
@@ -21,6 +27,15 @@ Vector12d prior_error(const MotionPrior& prior, const MotionState& state) {
   e.segment<3>(6) = T.linear() * state.twist.head<3>() - T0.linear() * prior.state.twist.head<3>();
   e.segment<3>(9) = T.linear() * state.twist.tail<3>() - T0.linear() * prior.state.twist.tail<3>();
   return e;
+}
+
+/// Tabulated motion over the span of the source's offsets.
+SweepMotion motion_of(const TimedCloud& source, const Vector6d& twist) {
+  if (source.offsets_s.empty()) {
+    return {twist, 0.0F, 0.0F};
+  }
+  const auto [begin, end] = std::minmax_element(source.offsets_s.begin(), source.offsets_s.end());
+  return {twist, *begin, *end};
 }
 
 }  // namespace
@@ -37,25 +52,21 @@ MotionState perturbed(const MotionState& state, const Vector12d& delta) {
 }
 
 NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
-                          const AdaptiveIcpConfig& config) {
+                          const AdaptiveIcpConfig& config, std::size_t stride) {
   const bool timed = source.timed();
+  const bool refine = timed && config.refine_motion;
   const Eigen::Matrix3d R = state.T_odom_lidar.linear();
   const Eigen::Vector3d t = state.T_odom_lidar.translation();
-  float begin = 0;
-  float end = 0;
-  if (timed && !source.points.empty()) {
-    const auto [lo, hi] = std::minmax_element(source.offsets_s.begin(), source.offsets_s.end());
-    begin = *lo;
-    end = *hi;
-  }
-  const SweepMotion motion(state.twist, begin, end);
-  const double gate = config.gate * sigma_th_m;
+  const SweepMotion motion = motion_of(source, state.twist);
+  const double gate = config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m;
   const double sigma2 = sigma_th_m * sigma_th_m;
-  std::vector<NormalEquations> partial(chunk_count(source.size()));
-  for_fixed_chunks(source.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
+  const std::size_t count = (source.size() + stride - 1) / stride;
+  std::vector<NormalEquations> partial(chunk_count(count));
+  for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
     NormalEquations sum;
     MapPlane plane;
-    for (std::size_t i = first; i < last; ++i) {
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t i = k * stride;
       const Eigen::Vector3f p = timed ? motion.compensate(source.points[i], source.offsets_s[i]) : source.points[i];
       const Eigen::Vector3d lever = R * p.cast<double>();
       const Eigen::Vector3d world = lever + t;
@@ -66,10 +77,10 @@ NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const M
       if (std::abs(e) > gate) {
         continue;
       }
-      const double beta = config.adaptive ? sigma2 / (sigma2 + e * e) : 1.0;
-      Vector6d J;
+      const double beta = config.adaptive ? sigma2 / (sigma2 + e * e) : 1.0;  // β_k
+      Vector6d J;  // [(p × n)ᵀ nᵀ]
       J << lever.cross(plane.normal), plane.normal;
-      if (timed && config.refine_motion) {
+      if (refine) {
         sum.add(J, e, beta, static_cast<double>(source.offsets_s[i]));
       } else {
         sum.add(J, e, beta);
@@ -84,39 +95,63 @@ NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const M
   return total;
 }
 
+namespace {
+
+/// One Gauss-Newton step with damping; false when the system says nothing.
+bool step(const NormalEquations& sums, const MotionPrior& prior, const AdaptiveIcpConfig& config, double information_scale,
+          IcpResult& result, Vector12d& delta) {
+  const double variance = sums.squared_error / sums.weight;
+  const double scale = information_scale * config.independent_share / std::max(variance, config.noise_m * config.noise_m);
+  result.inliers = sums.count;
+  result.residual_rms_m = std::sqrt(variance);
+  result.lidar_information = scale * sums.pose_hessian();
+  result.degeneracy = analyse_degeneracy(result.lidar_information);
+  Matrix12d H = scale * sums.hessian();
+  Vector12d b = -scale * sums.gradient();
+  if (config.weak_direction > 0.0) {
+    const Matrix6d select = soft_selection(result.degeneracy, config.weak_direction);
+    Matrix12d W = Matrix12d::Zero();
+    W.topLeftCorner<6, 6>() = select;
+    W.bottomRightCorner<6, 6>() = select;
+    H = (W.transpose() * H * W).eval();
+    b = (W.transpose() * b).eval();
+  }
+  H += prior.information;
+  b -= prior.information * prior_error(prior, result.state);
+  result.posterior_information = H;
+  H.diagonal().array() += config.damping * H.diagonal().maxCoeff();  // (H + λI) Δx = b
+  delta = H.ldlt().solve(b);
+  return delta.allFinite();
+}
+
+}  // namespace
+
 IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial, const MotionPrior& prior,
                        double sigma_th_m, const AdaptiveIcpConfig& config) {
   IcpResult result;
   result.state = initial;
-  for (result.iterations = 1; result.iterations <= config.max_iterations; ++result.iterations) {
-    const NormalEquations sums = linearise(source, map, result.state, sigma_th_m, config);
-    result.inliers = sums.count;
-    if (sums.count < 10) {
-      break;
-    }
-    const double variance = std::max(sums.squared_error / sums.weight, config.noise_m * config.noise_m);
-    result.residual_rms_m = std::sqrt(sums.squared_error / sums.weight);
-    const double scale = config.information_scale / variance;
-    result.lidar_information = scale * sums.pose_hessian();
-    Matrix12d H = scale * sums.hessian();
-    Vector12d b = -scale * sums.gradient();
-    if (config.motion_prior) {
-      H += prior.information;
-      b -= prior.information * prior_error(prior, result.state);
-    }
-    result.posterior_information = H;
-    H.diagonal().array() += config.damping * H.diagonal().maxCoeff() * 1e-3;  // (H + λI)
-    const Vector12d delta = H.ldlt().solve(b);
-    if (!delta.allFinite()) {
+  std::size_t stride = source.size() >= kLeastForStride ? static_cast<std::size_t>(config.coarse_stride) : 1;
+  while (result.iterations < config.max_iterations) {
+    ++result.iterations;
+    const NormalEquations sums = linearise(source, map, result.state, sigma_th_m, config, stride);
+    Vector12d delta;
+    if (sums.count < kLeastCorrespondences ||
+        !step(sums, prior, config, static_cast<double>(stride), result, delta)) {
+      result.inliers = sums.count;
       break;
     }
     result.state = perturbed(result.state, delta);
-    if (delta.head<3>().norm() < config.rotation_epsilon_rad && delta.segment<3>(3).norm() < config.translation_epsilon_m) {
+    const double tolerance = stride > 1 ? kCoarseTolerance : 1.0;
+    const bool small = delta.head<3>().norm() < tolerance * config.rotation_epsilon_rad &&
+                       delta.segment<3>(3).norm() < tolerance * config.translation_epsilon_m;
+    if (small && stride == 1) {
       result.converged = true;
       break;
     }
+    if (small || result.iterations == config.max_iterations / 2) {
+      stride = 1;
+    }
   }
-  result.iterations = std::min(result.iterations, config.max_iterations);
   return result;
 }
 

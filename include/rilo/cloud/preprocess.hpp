@@ -17,6 +17,7 @@ struct PreparedSweep {
   std::size_t valid_points = 0;   ///< finite and within range
   TimedCloud map_cloud;           ///< one point per map voxel
   TimedCloud source;              ///< S, one point per source voxel, a subset of map_cloud
+  double scene_range_m = 0;       ///< median range of S, smoothed over the sweeps: how large the place is
 };
 
 /// Range crop, NaN removal, time normalisation and downsampling. Keeps its buffers from sweep to sweep.
@@ -32,12 +33,17 @@ class Preprocessor {
  private:
   void crop(const Sweep& sweep);
   void normalise_times(const Sweep& sweep);
+  void downsample(double source_voxel_m);
+  void adapt_voxel();
+  void update_scene_range();
 
   PreprocessConfig config_;
   TimedCloud cropped_;
   PreparedSweep prepared_;
+  std::vector<float> ranges_;
   VoxelSampler map_sampler_;
   VoxelSampler source_sampler_;
+  double source_voxel_m_ = 0;  // 0: no sweep has been seen
   // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its seam, and the
   // reference instant must not.
   bool span_known_ = false;

@@ -11,10 +11,14 @@
 
 namespace rilo {
 
-/// Voxel map with a plane per voxel. Thread-safe to read from many threads; insert and evict need it alone.
+/// Voxel map with a plane per voxel. Thread-safe to read from many threads; changing it needs it alone.
 class LocalMap {
  public:
   explicit LocalMap(const LocalMapConfig& config);
+
+  /// Tells the map how large the place is (typical range of a point, m): small rooms need small voxels, and in the open small voxels
+  /// hold too few points of too few beams. Sets the finest level that insert and find work on from now on.
+  void set_scene_range(double range_m);
 
   /// Adds points of the sensor frame at the pose `T_odom_lidar`, then fits the planes that changed.
   void insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar);
@@ -22,13 +26,14 @@ class LocalMap {
   /// Drops voxels far from `centre` (odometry frame), a slice per call.
   void evict(const Eigen::Vector3d& centre);
 
-  /// Surface element nearest in scale to `p` (odometry frame): the finest level with a plane there. False when there is none.
+  /// Surface element at `p` (odometry frame): the finest level with a plane there. False when there is none.
   bool find(const Eigen::Vector3d& p, MapPlane& plane) const;
 
-  bool empty() const { return grids_.front().size() == 0; }
-  std::size_t size() const { return grids_.front().size(); }
+  bool empty() const { return grids_.back().size() == 0; }
+  /// Voxels of all levels.
+  std::size_t size() const;
 
-  /// One point for each finest voxel: the centroid of its points (odometry frame, m).
+  /// One point a voxel, from the finest level that has points there: the centroid of its points (odometry frame, m).
   std::vector<Eigen::Vector3f> points() const;
 
   void clear();
@@ -36,6 +41,7 @@ class LocalMap {
  private:
   LocalMapConfig config_;
   std::vector<PlaneGrid> grids_;  // finest first
+  std::size_t finest_ = 0;
 };
 
 }  // namespace rilo

@@ -22,7 +22,7 @@ struct PlaneCriteria {
 struct MapPlane {
   Eigen::Vector3d point;   ///< centroid (m)
   Eigen::Vector3d normal;  ///< unit
-  float thickness_m;       ///< standard deviation along the normal
+  float thickness_m = 0;   ///< standard deviation along the normal
 };
 
 /// Voxels in a flat open-addressing hash; the voxels themselves lie in a pool. A voxel's plane is fitted on insertion, when the
@@ -36,8 +36,12 @@ class PlaneGrid {
   /// Fits the planes of the voxels touched since the last call.
   void refit();
 
-  /// Plane of the voxel that holds `p`; false when there is none.
+  /// Plane of the voxel that holds `p`, or, where that has none, of the voxel behind the nearest face: a wall on the boundary of two
+  /// voxels scatters over both. False when neither has one.
   bool find(const Eigen::Vector3d& p, MapPlane& plane) const;
+
+  /// Whether the voxel that holds `p` has points.
+  bool occupied(const Eigen::Vector3d& p) const;
 
   /// Examines a slice of the voxels and drops those farther than `radius_m` from `centre`. A full round takes kEvictionRounds calls.
   void evict(const Eigen::Vector3d& centre, double radius_m);
@@ -70,6 +74,7 @@ class PlaneGrid {
     std::uint32_t voxel = kNone;
   };
 
+  bool plane_of(const VoxelIndex& index, MapPlane& plane) const;
   Eigen::Vector3d centre_of(const VoxelIndex& index) const;
   std::uint32_t find_voxel(std::uint64_t key) const;
   std::uint32_t find_or_add(const VoxelIndex& index);

@@ -4,8 +4,10 @@
 #include "rilo/cloud/preprocess_config.hpp"
 #include "rilo/map/local_map_config.hpp"
 #include "rilo/odometry/adaptive_threshold_config.hpp"
+#include "rilo/odometry/health_config.hpp"
 #include "rilo/odometry/initial_pose_config.hpp"
 #include "rilo/odometry/motion_prediction_config.hpp"
+#include "rilo/odometry/motion_prior_config.hpp"
 #include "rilo/registration/adaptive_icp_config.hpp"
 #include "rilo/registration/coarse_registration_config.hpp"
 
@@ -17,10 +19,15 @@ struct OdometryConfig {
   PreprocessConfig preprocess;
   CoarseRegistrationConfig coarse;
   MotionPredictionConfig prediction;
+  MotionPriorConfig prior;
   InitialPoseConfig initial_pose;
   AdaptiveThresholdConfig threshold;
   AdaptiveIcpConfig icp;
   LocalMapConfig map;
+  HealthConfig health;
 };
+
+/// @throws std::invalid_argument naming the first value that is out of range, and the range.
+void validate(const OdometryConfig& config);
 
 }  // namespace rilo

@@ -50,11 +50,10 @@ std::string_view to_string(InitialPoseReason reason);
 
 /// Wall time of each stage in ms; all zero unless a clock was given to the odometry.
 struct StageTimes {
-  double preprocess_ms = 0;    ///< crop, NaN removal, downsampling, motion compensation
-  double coarse_ms = 0;        ///< III-A
-  double initial_pose_ms = 0;  ///< III-B
-  double registration_ms = 0;  ///< III-D
-  double map_ms = 0;           ///< insertion and eviction
+  double preprocess_ms = 0;    ///< crop, NaN removal, downsampling
+  double initial_pose_ms = 0;  ///< prediction, coarse registration (III-A) and selection (III-B)
+  double registration_ms = 0;  ///< III-D, motion compensation of the source included
+  double map_ms = 0;           ///< motion compensation of the map cloud, insertion, eviction, threshold and health
   double total_ms = 0;
 };
 
@@ -70,6 +69,8 @@ struct SweepStats {
   bool coarse_ran = false;
   int coarse_iterations = 0;
   double pred_align_distance_m = 0; ///< Δt_i (III-B)
+  double prediction_score = 0;      ///< map score of the prediction, 0 … 1
+  double map_score = 0;             ///< map score of the result, 0 … 1
   int iterations = 0;               ///< fine registration (III-D)
   bool converged = false;
   std::size_t inliers = 0;          ///< correspondences of the last iteration

@@ -8,6 +8,7 @@
 #include "rilo/geometry/se3.hpp"
 #include "rilo/map/local_map.hpp"
 #include "rilo/registration/adaptive_icp_config.hpp"
+#include "rilo/registration/degeneracy.hpp"
 #include "rilo/registration/normal_equations.hpp"
 
 namespace rilo {
@@ -34,12 +35,13 @@ struct IcpResult {
   double residual_rms_m = 0;
   Matrix6d lidar_information = Matrix6d::Zero();  ///< of the pose, sweep alone, same perturbation as MotionPrior
   Matrix12d posterior_information = Matrix12d::Zero();
+  PoseDegeneracy degeneracy;
 };
 
 /// Residuals and Jacobians of `source` against the planes of `map` at `state`, with the Cauchy weight of σ_th (eq. β_k), summed.
-/// The pose is perturbed as described at MotionPrior.
+/// The pose is perturbed as described at MotionPrior. Only every `stride`-th point is looked at.
 NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
-                          const AdaptiveIcpConfig& config);
+                          const AdaptiveIcpConfig& config, std::size_t stride = 1);
 
 /// Moves `state` by the perturbation [rotation; translation; their rates].
 MotionState perturbed(const MotionState& state, const Vector12d& delta);

@@ -1,0 +1,21 @@
+// How far a registration can be trusted.
+#pragma once
+
+#include "rilo/odometry/health_config.hpp"
+#include "rilo/odometry/sweep_result.hpp"
+#include "rilo/registration/adaptive_icp.hpp"
+
+namespace rilo {
+
+/// Evidence about one registration.
+struct Evidence {
+  std::size_t source_points = 0;
+  double score = 0;        ///< map score at the registered pose
+  double usual_score = 0;  ///< of the sweeps before; 0: unknown
+  bool was_lost = false;   ///< the sweep before was lost
+};
+
+/// Status of a registered sweep.
+OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
+
+}  // namespace rilo

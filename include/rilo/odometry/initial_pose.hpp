@@ -1,0 +1,76 @@
+// Reliable initial pose: coarse registration when it is worth it (III-A), and the choice against the prediction (III-B).
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rilo/cloud/timed_cloud.hpp"
+#include "rilo/cloud/voxel_sampler.hpp"
+#include "rilo/map/local_map.hpp"
+#include "rilo/odometry/initial_pose_config.hpp"
+#include "rilo/odometry/sweep_result.hpp"
+#include "rilo/registration/adaptive_icp.hpp"
+#include "rilo/registration/coarse_registration.hpp"
+
+namespace rilo {
+
+/// T_init and why.
+struct InitialPose {
+  SE3 T_odom_lidar = SE3::Identity();
+  InitialPoseSource source = InitialPoseSource::kPrediction;
+  InitialPoseReason reason = InitialPoseReason::kCoarseNotNeeded;
+  bool coarse_ran = false;
+  int coarse_iterations = 0;         ///< over all starts
+  double prediction_score = 0;       ///< map score of T_pred, 0 … 1
+  double pred_align_distance_m = 0;  ///< Δt_i
+};
+
+/// Candidate poses with their map scores.
+struct ScoredPose {
+  SE3 T_odom_lidar = SE3::Identity();
+  double score = 0;
+};
+
+/// The rule of III-B: chooses between prediction and coarse result, both in the odometry frame.
+InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse, const InitialPoseConfig& config);
+
+/// The stage: knows the usual score and the last sweep's cloud.
+class InitialPoseStage {
+ public:
+  InitialPoseStage(const InitialPoseConfig& config, const CoarseRegistrationConfig& coarse) : config_(config), coarse_(coarse) {}
+
+  /// Chooses the initial pose of `source`.
+  /// @param predicted T_pred and the velocity during the sweep.
+  /// @param previous T_{i−1}.
+  /// @param dt_s time since `previous`.
+  /// @param in_doubt the prediction must not be trusted whatever its score (start, after a loss).
+  InitialPose choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous, double dt_s, const LocalMap& map,
+                     bool in_doubt);
+
+  /// Map score of a registered sweep; the cloud becomes the next target.
+  double score(const TimedCloud& source, const MotionState& state, const LocalMap& map);
+
+  /// Lets a sweep's score, known to be good, into the usual score.
+  void learn(double score);
+
+  double usual_score() const { return usual_score_; }
+
+  /// Keeps the motion-compensated source of a sweep as target of the next coarse registration.
+  void keep_target(const TimedCloud& source, const Vector6d& twist);
+
+  void reset();
+
+ private:
+  DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points);
+  std::vector<SE3> starts(const MotionState& predicted, const SE3& previous, const LocalMap& map, bool in_doubt) const;
+
+  InitialPoseConfig config_;
+  CoarseRegistrationConfig coarse_;
+  VoxelSampler sampler_;
+  std::vector<Eigen::Vector3f> compensated_;
+  std::vector<Eigen::Vector3f> target_;
+  double usual_score_ = 0;
+};
+
+}  // namespace rilo

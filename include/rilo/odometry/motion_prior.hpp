@@ -1,0 +1,18 @@
+// What the motion so far says about the next pose and velocity.
+#pragma once
+
+#include "rilo/odometry/motion_prior_config.hpp"
+#include "rilo/registration/adaptive_icp.hpp"
+
+namespace rilo {
+
+/// Covariance of a velocity nothing is known of: a car on a motorway, a sensor turned by hand ([rad/s; m/s] squared).
+Matrix6d unknown_velocity_covariance();
+
+/// Prior of pose and velocity `dt_s` after a pose taken as certain (odometry is relative) with the velocity covariance
+/// `velocity_covariance` [rad/s; m/s]; the velocity performs a random walk. `predicted` is the mean. It holds the directions that a
+/// sweep does not constrain, and it ties the velocity during the sweep to the displacement since the last. Zero information when off.
+MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s,
+                         const MotionPriorConfig& config);
+
+}  // namespace rilo

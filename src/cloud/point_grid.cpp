@@ -1,0 +1,139 @@
+#include "rilo/cloud/point_grid.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace rilo {
+
+namespace {
+bool closer(const Neighbour& a, const Neighbour& b) {
+  return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.index < b.index);
+}
+}  // namespace
+
+void PointGrid::build(const std::vector<Eigen::Vector3f>& points) {
+  points_ = points;
+  std::vector<std::uint64_t> keys(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    keys[i] = voxel_key(voxel_of(points_[i], inverse_));
+  }
+  order_.resize(points_.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  std::sort(order_.begin(), order_.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
+  cells_.assign(std::bit_ceil(points_.size() * 2 + 16), Cell{});
+  const std::size_t mask = cells_.size() - 1;
+  for (std::uint32_t begin = 0; begin < order_.size();) {
+    const std::uint64_t key = keys[order_[begin]];
+    std::uint32_t end = begin + 1;
+    while (end < order_.size() && keys[order_[end]] == key) {
+      ++end;
+    }
+    std::size_t slot = mix_key(key) & mask;
+    while (cells_[slot].begin != cells_[slot].end) {
+      slot = (slot + 1) & mask;
+    }
+    cells_[slot] = {key, begin, end};
+    begin = end;
+  }
+}
+
+const PointGrid::Cell* PointGrid::find_cell(const VoxelIndex& index) const {
+  const std::uint64_t key = voxel_key(index);
+  const std::size_t mask = cells_.size() - 1;
+  for (std::size_t slot = mix_key(key) & mask; cells_[slot].begin != cells_[slot].end; slot = (slot + 1) & mask) {
+    if (cells_[slot].key == key) {
+      return &cells_[slot];
+    }
+  }
+  return nullptr;
+}
+
+template <typename Visit>
+void PointGrid::visit_ring(const Eigen::Vector3f& p, const VoxelIndex& centre, int ring, const Visit& visit) const {
+  for (int dz = -ring; dz <= ring; ++dz) {
+    for (int dy = -ring; dy <= ring; ++dy) {
+      const bool face = std::abs(dz) == ring || std::abs(dy) == ring;
+      const int step = face || ring == 0 ? 1 : 2 * ring;  // inside the shell only the two end cells of a row belong to it
+      for (int dx = -ring; dx <= ring; dx += step) {
+        const Cell* cell = find_cell({centre.x + dx, centre.y + dy, centre.z + dz});
+        if (cell == nullptr) {
+          continue;
+        }
+        for (std::uint32_t i = cell->begin; i < cell->end; ++i) {
+          visit(order_[i], (points_[order_[i]] - p).squaredNorm());
+        }
+      }
+    }
+  }
+}
+
+bool PointGrid::nearest(const Eigen::Vector3f& p, double max_distance_m, Neighbour& found) const {
+  if (points_.empty()) {
+    return false;
+  }
+  const VoxelIndex centre = voxel_of(p, inverse_);
+  const auto limit2 = static_cast<float>(max_distance_m * max_distance_m);
+  Neighbour best{0xFFFFFFFFU, limit2};
+  const int rings = static_cast<int>(std::ceil(max_distance_m * inverse_));
+  for (int ring = 0; ring <= rings; ++ring) {
+    visit_ring(p, centre, ring, [&](std::uint32_t index, float distance2) {
+      const Neighbour candidate{index, distance2};
+      if (closer(candidate, best)) {
+        best = candidate;
+      }
+    });
+    // A point of the next ring is at least `ring` cells away.
+    const double reach = ring * cell_m_;
+    if (best.index != 0xFFFFFFFFU && static_cast<double>(best.distance2) <= reach * reach) {
+      break;
+    }
+  }
+  found = best;
+  return best.index != 0xFFFFFFFFU;
+}
+
+void PointGrid::nearest(const Eigen::Vector3f& p, std::size_t k, double max_distance_m, std::vector<Neighbour>& found) const {
+  found.clear();
+  if (points_.empty() || k == 0) {
+    return;
+  }
+  const VoxelIndex centre = voxel_of(p, inverse_);
+  const auto limit2 = static_cast<float>(max_distance_m * max_distance_m);
+  const int rings = static_cast<int>(std::ceil(max_distance_m * inverse_));
+  for (int ring = 0; ring <= rings; ++ring) {
+    visit_ring(p, centre, ring, [&](std::uint32_t index, float distance2) {
+      const Neighbour candidate{index, distance2};
+      if (distance2 > limit2 || (found.size() == k && !closer(candidate, found.back()))) {
+        return;
+      }
+      found.insert(std::upper_bound(found.begin(), found.end(), candidate, closer), candidate);
+      if (found.size() > k) {
+        found.pop_back();
+      }
+    });
+    const double reach = ring * cell_m_;
+    if (found.size() == k && static_cast<double>(found.back().distance2) <= reach * reach) {
+      break;
+    }
+  }
+}
+
+std::size_t PointGrid::count_within(const Eigen::Vector3f& p, double radius_m) const {
+  if (points_.empty()) {
+    return 0;
+  }
+  const VoxelIndex centre = voxel_of(p, inverse_);
+  const auto radius2 = static_cast<float>(radius_m * radius_m);
+  const int rings = static_cast<int>(std::ceil(radius_m * inverse_));
+  std::size_t count = 0;
+  for (int ring = 0; ring <= rings; ++ring) {
+    visit_ring(p, centre, ring, [&](std::uint32_t, float distance2) { count += distance2 <= radius2 ? 1 : 0; });
+  }
+  return count;
+}
+
+}  // namespace rilo

@@ -1,0 +1,114 @@
+#include "rilo/odometry/initial_pose.hpp"
+
+#include "rilo/cloud/deskew.hpp"
+#include "rilo/registration/map_score.hpp"
+
+namespace rilo {
+
+namespace {
+constexpr double kLearningRate = 0.2;
+// The search looks at fewer points and more tolerantly than the score: it only has to find the right valley.
+constexpr std::size_t kSearchPoints = 300;
+constexpr double kSearchSigmaM = 0.3;
+constexpr double kSearchShiftStepM = 0.5;
+constexpr double kSearchYawStepRad = 0.1;
+constexpr std::size_t kSearchStarts = 4;
+}  // namespace
+
+InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse, const InitialPoseConfig& config) {
+  InitialPose choice;
+  const SE3 difference = prediction.T_odom_lidar.inverse() * coarse.T_odom_lidar;
+  choice.pred_align_distance_m = difference.translation().norm();  // Δt_i
+  bool take_coarse = false;
+  if (config.rule == InitialPoseRule::kFixedTau) {
+    take_coarse = choice.pred_align_distance_m <= config.tau_m;
+    choice.reason = take_coarse ? InitialPoseReason::kWithinTau : InitialPoseReason::kBeyondTau;
+  } else {
+    take_coarse = coarse.score > prediction.score + config.margin;
+    choice.reason = take_coarse ? InitialPoseReason::kBetterMapScore : InitialPoseReason::kWorseMapScore;
+  }
+  choice.source = take_coarse ? InitialPoseSource::kCoarse : InitialPoseSource::kPrediction;
+  choice.T_odom_lidar = take_coarse ? coarse.T_odom_lidar : prediction.T_odom_lidar;
+  choice.prediction_score = prediction.score;
+  return choice;
+}
+
+InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous, double dt_s,
+                                     const LocalMap& map, bool in_doubt) {
+  const ScoredPose prediction{predicted.T_odom_lidar, score(source, predicted, map)};
+  InitialPose choice;
+  choice.T_odom_lidar = prediction.T_odom_lidar;
+  choice.prediction_score = prediction.score;
+  if (!coarse_.enabled) {
+    choice.reason = InitialPoseReason::kCoarseDisabled;
+    return choice;
+  }
+  const bool doubt = in_doubt || prediction.score < config_.alarm * usual_score_;
+  if (!doubt && !coarse_.always) {
+    return choice;
+  }
+  const DistributionCloud moving = distribution(compensated_);
+  const DistributionCloud target = distribution(target_);
+  ScoredPose best{prediction.T_odom_lidar, -1.0};
+  int iterations = 0;
+  for (const SE3& start : starts(predicted, previous, map, doubt)) {
+    const CoarseResult result = coarse_registration(moving, target, previous.inverse() * start, coarse_);
+    iterations += result.iterations;
+    // Each candidate implies its own motion during the sweep, and is judged on the sweep compensated for it.
+    const MotionState state{previous * result.T_target_source, se3_log(result.T_target_source) / dt_s};
+    const double value = score(source, state, map);
+    if (value > best.score) {
+      best = {state.T_odom_lidar, value};
+    }
+  }
+  choice = select_initial_pose(prediction, best, config_);
+  choice.coarse_ran = true;
+  choice.coarse_iterations = iterations;
+  return choice;
+}
+
+std::vector<SE3> InitialPoseStage::starts(const MotionState& predicted, const SE3& previous, const LocalMap& map,
+                                          bool in_doubt) const {
+  std::vector<SE3> poses{predicted.T_odom_lidar};
+  if (!in_doubt) {
+    return poses;
+  }
+  poses.push_back(previous);  // no motion
+  if (config_.restarts) {
+    const PoseGrid grid{config_.search_shift_m, kSearchShiftStepM, config_.search_yaw_rad, kSearchYawStepRad};
+    const auto points = evenly_picked(compensated_, kSearchPoints);
+    for (const SE3& T : search_poses(points, map, previous, grid, kSearchSigmaM, kSearchStarts)) {
+      poses.push_back(T);
+    }
+  }
+  return poses;
+}
+
+double InitialPoseStage::score(const TimedCloud& source, const MotionState& state, const LocalMap& map) {
+  deskew(source, state.twist, compensated_);
+  const auto points = evenly_picked(compensated_, static_cast<std::size_t>(config_.score_points));
+  return map_score(points, map, state.T_odom_lidar, config_.score_sigma_m);
+}
+
+void InitialPoseStage::learn(double score) {
+  usual_score_ = usual_score_ > 0.0 ? usual_score_ + kLearningRate * (score - usual_score_) : score;
+}
+
+void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twist) {
+  deskew(source, twist, target_);
+}
+
+void InitialPoseStage::reset() {
+  usual_score_ = 0.0;
+  target_.clear();
+}
+
+DistributionCloud InitialPoseStage::distribution(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<Eigen::Vector3f> sampled;
+  for (const std::uint32_t i : sampler_.sample(points, coarse_.voxel_m)) {
+    sampled.push_back(points[i]);
+  }
+  return make_distribution_cloud(sampled, coarse_);
+}
+
+}  // namespace rilo

@@ -1,0 +1,44 @@
+#include "rilo/odometry/motion_prior.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace rilo {
+
+namespace {
+// The configured accelerations are changes over this time.
+constexpr double kUnitTimeS = 0.1;
+constexpr double kUnknownTurnRate = 1.0;  // rad/s
+constexpr double kUnknownSpeed = 20.0;    // m/s
+}  // namespace
+
+Matrix6d unknown_velocity_covariance() {
+  Vector6d variance;
+  variance.head<3>().setConstant(kUnknownTurnRate * kUnknownTurnRate);
+  variance.tail<3>().setConstant(kUnknownSpeed * kUnknownSpeed);
+  return variance.asDiagonal();
+}
+
+MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s,
+                         const MotionPriorConfig& config) {
+  MotionPrior prior;
+  prior.state = predicted;
+  if (!config.enabled) {
+    return prior;
+  }
+  Vector6d density;
+  density.head<3>().setConstant(config.angular_acceleration_rad_s2 * config.angular_acceleration_rad_s2 * kUnitTimeS);
+  density.tail<3>().setConstant(config.acceleration_m_s2 * config.acceleration_m_s2 * kUnitTimeS);
+  const Matrix6d Q = density.asDiagonal();
+  const Matrix6d& V = velocity_covariance;
+  const double dt2 = dt_s * dt_s;
+  Matrix12d P;
+  P.topLeftCorner<6, 6>() = dt2 * V + dt2 * dt_s / 3.0 * Q;
+  P.topRightCorner<6, 6>() = dt_s * V + dt2 / 2.0 * Q;
+  P.bottomLeftCorner<6, 6>() = P.topRightCorner<6, 6>().transpose();
+  P.bottomRightCorner<6, 6>() = V + dt_s * Q;
+  const Matrix12d information = P.ldlt().solve(Matrix12d::Identity());
+  prior.information = 0.5 * (information + information.transpose());
+  return prior;
+}
+
+}  // namespace rilo

@@ -1,0 +1,45 @@
+#include "rilo/registration/degeneracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace rilo {
+
+PoseDegeneracy analyse_degeneracy(const Matrix6d& H) {
+  PoseDegeneracy result;
+  const double rotation = H.topLeftCorner<3, 3>().trace();
+  const double translation = H.bottomRightCorner<3, 3>().trace();
+  if (!(translation > 0.0) || !(rotation > 0.0) || !H.allFinite()) {
+    return result;
+  }
+  result.lever_m = std::sqrt(rotation / translation);
+  Vector6d scale = Vector6d::Ones();
+  scale.head<3>().setConstant(1.0 / result.lever_m);
+  const Matrix6d scaled = scale.asDiagonal() * H * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scaled);
+  const double largest = solver.eigenvalues()[5];
+  if (largest > 0.0) {
+    result.relative_eigenvalues = solver.eigenvalues().cwiseMax(0.0) / largest;
+    result.directions = solver.eigenvectors();
+  }
+  return result;
+}
+
+Matrix6d soft_selection(const PoseDegeneracy& degeneracy, double threshold) {
+  if (threshold <= 0.0) {
+    return Matrix6d::Identity();
+  }
+  const Eigen::Array<double, 6, 1> power = degeneracy.relative_eigenvalues.array().pow(4);
+  // W is applied from both sides, so that it carries the square root of the share.
+  const Vector6d share = (power / (power + std::pow(threshold, 4))).sqrt();
+  Vector6d scale = Vector6d::Ones();
+  scale.head<3>().setConstant(degeneracy.lever_m);
+  const Matrix6d& V = degeneracy.directions;
+  // V S Vᵀ acts on perturbations in metres; the scales carry it to radians and metres.
+  const Matrix6d W = V * share.asDiagonal() * V.transpose();
+  return scale.cwiseInverse().asDiagonal() * W * scale.asDiagonal();
+}
+
+}  // namespace rilo

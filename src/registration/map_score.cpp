@@ -1,0 +1,107 @@
+#include "rilo/registration/map_score.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace rilo {
+
+namespace {
+
+struct Candidate {
+  int yaw = 0;
+  int x = 0;
+  int y = 0;
+  double score = 0;
+};
+
+/// Grid nodes, nearest to the centre first: among equal scores the smaller motion wins.
+std::vector<Candidate> grid_nodes(const PoseGrid& grid) {
+  const int shifts = static_cast<int>(std::lround(grid.max_shift_m / grid.shift_step_m));
+  const int yaws = static_cast<int>(std::lround(grid.max_yaw_rad / grid.yaw_step_rad));
+  std::vector<Candidate> nodes;
+  for (int yaw = -yaws; yaw <= yaws; ++yaw) {
+    for (int x = -shifts; x <= shifts; ++x) {
+      for (int y = -shifts; y <= shifts; ++y) {
+        if (x * x + y * y <= shifts * shifts) {
+          nodes.push_back({yaw, x, y, 0.0});
+        }
+      }
+    }
+  }
+  return nodes;
+}
+
+SE3 pose_of(const Candidate& c, const SE3& centre, const PoseGrid& grid) {
+  Vector6d shift = Vector6d::Zero();
+  shift[3] = c.x * grid.shift_step_m;
+  shift[4] = c.y * grid.shift_step_m;
+  SE3 T = SE3::Identity();
+  T.linear() = so3_exp(Eigen::Vector3d(0.0, 0.0, c.yaw * grid.yaw_step_rad));
+  T.translation() = shift.tail<3>();
+  return centre * T;
+}
+
+bool near_one_another(const Candidate& a, const Candidate& b) {
+  return std::abs(a.yaw - b.yaw) <= 2 && std::abs(a.x - b.x) <= 2 && std::abs(a.y - b.y) <= 2;
+}
+
+}  // namespace
+
+double map_score(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& T_odom_lidar, double sigma_m) {
+  if (points.empty()) {
+    return 0.0;
+  }
+  const double scale = -0.5 / (sigma_m * sigma_m);
+  double sum = 0.0;
+  MapPlane plane;
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Vector3d world = T_odom_lidar * p.cast<double>();
+    if (map.find(world, plane)) {
+      const double e = plane.normal.dot(world - plane.point);
+      sum += std::exp(scale * e * e);
+    }
+  }
+  return sum / static_cast<double>(points.size());
+}
+
+std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& points, std::size_t count) {
+  if (points.size() <= count) {
+    return points;
+  }
+  std::vector<Eigen::Vector3f> picked;
+  picked.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    picked.push_back(points[i * points.size() / count]);
+  }
+  return picked;
+}
+
+std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre, const PoseGrid& grid,
+                              double sigma_m, std::size_t keep) {
+  std::vector<Candidate> nodes = grid_nodes(grid);
+  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    nodes[i].score = map_score(points, map, pose_of(nodes[i], centre, grid), sigma_m);
+  });
+  const auto distance2 = [](const Candidate& c) { return c.yaw * c.yaw + c.x * c.x + c.y * c.y; };
+  std::stable_sort(nodes.begin(), nodes.end(), [&](const Candidate& a, const Candidate& b) {
+    return a.score != b.score ? a.score > b.score : distance2(a) < distance2(b);
+  });
+  std::vector<Candidate> chosen;
+  for (const Candidate& node : nodes) {
+    if (chosen.size() == keep) {
+      break;
+    }
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const Candidate& c) { return near_one_another(c, node); })) {
+      chosen.push_back(node);
+    }
+  }
+  std::vector<SE3> poses;
+  for (const Candidate& c : chosen) {
+    poses.push_back(pose_of(c, centre, grid));
+  }
+  return poses;
+}
+
+}  // namespace rilo

@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "io/io_test_util.hpp"
+#include "rilo/io/ground_truth.hpp"
+#include "rilo/io/pose_writer.hpp"
 #include "rilo/io/scan_source.hpp"
+#include "rilo/io/sweep_writer.hpp"
 
 namespace rilo {
 namespace {
@@ -101,6 +104,29 @@ TEST(SequenceSourceTest, DriveSimulator) {
   EXPECT_FLOAT_EQ(sweep->times_s[0], 0);
   EXPECT_FLOAT_EQ(sweep->times_s[1], 0.1F);
   EXPECT_FLOAT_EQ(sweep->times_s[2], 0.2F);
+}
+
+// A drive written with our own writers.
+TEST(SequenceSourceTest, WrittenDriveComesBack) {
+  const TempDir folder;
+  std::filesystem::create_directory(folder / "velodyne");
+  std::filesystem::create_directory(folder / "times_pt");
+  const Sweep written = test::small_sweep();
+  std::vector<float> fractions;
+  for (const float time : written.times_s) fractions.push_back(time * 10);
+  write_kitti_bin(folder / "velodyne/000000.bin", written);
+  write_floats(folder / "times_pt/000000.bin", fractions);
+  write_stamps(folder / "times.txt", {1'500'000'001});
+  SE3 pose = SE3::Identity();
+  pose.translation() << 1, 2, 3;
+  write_kitti_poses(folder / "poses_mid.txt", std::vector<SE3>{pose});
+  const auto sweep = open_scan_source(folder.path())->next();
+  EXPECT_EQ(sweep->points, written.points);
+  EXPECT_EQ(sweep->intensities, written.intensities);
+  EXPECT_EQ(sweep->stamp_ns, 1'500'000'001);
+  for (std::size_t i = 0; i < fractions.size(); ++i) EXPECT_NEAR(sweep->times_s.at(i), written.times_s[i], 1e-7F);
+  const auto truth = read_ground_truth(folder.path(), TruthInstant::kMid);
+  EXPECT_EQ(truth->T_world_lidar.at(0).matrix(), pose.matrix());
 }
 
 TEST(SequenceSourceTest, DriveSimulatorWithoutItsTimesOrFromAzimuth) {

@@ -14,7 +14,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() 
 
 struct Corner {
   Eigen::Vector2d in, out, point;  // unit directions before and after
-  double radius, angle;            // signed turn
+  double radius = 0, angle = 0;    // signed turn
   double tangent() const { return radius * std::tan(std::abs(angle) / 2); }
 };
 
@@ -43,7 +43,7 @@ Eigen::Vector2d on_arc(const Corner& c, double s) {
 struct Piece {
   Eigen::Vector2d begin;
   Corner corner;
-  double straight, arc;
+  double straight = 0, arc = 0;
 };
 
 std::vector<Piece> pieces() {
@@ -77,11 +77,11 @@ Eigen::Vector2d point_at(const std::vector<Piece>& all, double s) {
 }  // namespace
 
 const std::vector<CourseCorner>& course_corners() {
-  static const std::vector<CourseCorner> corners = {
+  static const std::vector<CourseCorner> kCorners = {
       {{0, 0}, 11},   {{92, 0}, 11}, {{92, 38}, 11}, {{51, 38}, 11},
       {{51, 74}, 11}, {{0, 74}, 11}, {{-1, 50}, 90}, {{-1, 26}, 90},
   };
-  return corners;
+  return kCorners;
 }
 
 std::vector<Eigen::Vector2d> rounded_course(double spacing_m) {

@@ -85,7 +85,7 @@ double distance_spline(const std::vector<double>& control, double u, std::size_t
   const double inside = std::clamp(u, 2.0, last);
   if (inside != u && derivative > 0) return 0;
   const double whole = std::floor(inside);
-  std::array<double, 6> near;
+  std::array<double, 6> near{};
   for (std::size_t i = 0; i < near.size(); ++i) near[i] = control[static_cast<std::size_t>(whole) - 2 + i];
   return simulation::quintic_spline(near, derivative, inside - whole);
 }

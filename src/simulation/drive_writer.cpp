@@ -49,14 +49,14 @@ void create_folder(const fs::path& path) {
 
 // Only what an earlier drive left is taken away, never something else that the folder holds.
 void prepare_folder(const fs::path& folder) {
-  static const std::set<std::string> ours = {"velodyne",  "times_pt",      "times.txt",     "calib.txt",
-                                             "poses.txt", "poses_mid.txt", "poses_end.txt", "poses_start.txt",
-                                             "meta.json", "meta.json.tmp"};
+  static const std::set<std::string> kOurs = {"velodyne",  "times_pt",      "times.txt",     "calib.txt",
+                                              "poses.txt", "poses_mid.txt", "poses_end.txt", "poses_start.txt",
+                                              "meta.json", "meta.json.tmp"};
   create_folder(folder);
   std::error_code error;
   std::vector<fs::path> found;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (ours.count(it->path().filename().string()) == 0) {
+    if (kOurs.count(it->path().filename().string()) == 0) {
       throw std::runtime_error(it->path().string() + ": is no part of a simulated drive; choose an empty folder");
     }
     found.push_back(it->path());

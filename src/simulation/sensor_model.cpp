@@ -12,7 +12,7 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr std::array<std::pair<SensorKind, std::string_view>, 3> kNames = {{
     {SensorKind::kHdl64, "hdl64"},
     {SensorKind::kVlp16, "vlp16"},
-    {SensorKind::kOs1_64, "os1-64"},
+    {SensorKind::kOs1, "os1-64"},
 }};
 
 // `count` beams from `top_deg` downwards.
@@ -57,7 +57,7 @@ SensorModel sensor_model(SensorKind kind) {
       model.min_range_m = 0.5;
       model.max_range_m = 100;
       break;
-    case SensorKind::kOs1_64:
+    case SensorKind::kOs1:
       add_beams(model.elevations_rad, 22.5, 45.0 / 63.0, 64);
       model.columns = 1024;
       model.min_range_m = 0.5;

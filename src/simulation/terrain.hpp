@@ -19,8 +19,8 @@ class Terrain {
  private:
   struct Wave {
     Eigen::Vector2d wave_number;  // rad/m
-    double phase;
-    double amplitude_m;
+    double phase = 0;
+    double amplitude_m = 0;
   };
   std::array<Wave, 5> waves_;
 };

@@ -23,8 +23,9 @@ Traffic::Traffic(std::size_t cars, std::uint64_t seed) {
       // Spread round the lap in an order that a few cars cover too (3 and 8 have no common divisor).
       car.lead = static_cast<double>((3 * oncoming++ + 1) % kPlacesOncoming) / static_cast<double>(kPlacesOncoming);
     } else {
-      const std::size_t pair = i / 3;
-      car.lead = kHeadwayS * static_cast<double>(pair / 2 + 1) * (pair % 2 == 0 ? 1.0 : -1.0);
+      const std::size_t place = i / 3;
+      const std::size_t headways = place / 2 + 1;
+      car.lead = (place % 2 == 0 ? kHeadwayS : -kHeadwayS) * static_cast<double>(headways);
     }
     cars_.push_back(car);
   }

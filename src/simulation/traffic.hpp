@@ -38,8 +38,8 @@ class Traffic {
  private:
   struct Car {
     CarBody body;
-    bool oncoming;
-    double lead;  // seconds ahead of the vehicle; of oncoming cars metres along the course
+    bool oncoming = false;
+    double lead = 0;  // seconds ahead of the vehicle; of oncoming cars metres along the course
   };
   std::vector<Car> cars_;
 };

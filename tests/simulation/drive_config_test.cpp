@@ -55,7 +55,7 @@ TEST(DriveConfig, RefusesWhatIsOutOfRange) {
 }
 
 TEST(SensorModel, NamesGoBothWays) {
-  for (const SensorKind kind : {SensorKind::kHdl64, SensorKind::kVlp16, SensorKind::kOs1_64}) {
+  for (const SensorKind kind : {SensorKind::kHdl64, SensorKind::kVlp16, SensorKind::kOs1}) {
     EXPECT_EQ(parse_sensor_kind(to_string(kind)), kind);
     EXPECT_EQ(sensor_model(kind).kind, kind);
   }
@@ -74,7 +74,7 @@ TEST(SensorModel, HasTheBeamsOfTheDataSheets) {
   };
   expect_beams(SensorKind::kHdl64, 64, 2.0, -24.33);
   expect_beams(SensorKind::kVlp16, 16, 15.0, -15.0);
-  expect_beams(SensorKind::kOs1_64, 64, 22.5, -22.5);
+  expect_beams(SensorKind::kOs1, 64, 22.5, -22.5);
 }
 
 TEST(SensorModel, TurnsClockwiseFromBehind) {

@@ -16,13 +16,13 @@ namespace {
 constexpr double kSpeed = 10.5;
 
 const DrivePath& path() {
-  static const DrivePath path(kSpeed, 80);
-  return path;
+  static const DrivePath kPath(kSpeed, 80);
+  return kPath;
 }
 
 const simulation::Terrain& terrain() {
-  static const simulation::Terrain terrain(3);
-  return terrain;
+  static const simulation::Terrain kTerrain(3);
+  return kTerrain;
 }
 
 SE3 pose(double t) { return simulation::sensor_pose(path(), terrain(), 1.73, t); }

@@ -48,7 +48,7 @@ TEST(DriveSimulator, AnotherSeedIsAnotherTown) {
 }
 
 TEST(DriveSimulator, ColumnsAreFullAndInOrder) {
-  for (const SensorKind kind : {SensorKind::kHdl64, SensorKind::kVlp16, SensorKind::kOs1_64}) {
+  for (const SensorKind kind : {SensorKind::kHdl64, SensorKind::kVlp16, SensorKind::kOs1}) {
     DriveConfig config = small_drive();
     config.sensor = kind;
     const DriveSimulator drive(config);
@@ -80,7 +80,7 @@ TEST(DriveSimulator, ColumnsAreFullAndInOrder) {
 TEST(DriveSimulator, MostBeamsAnswerInATown) {
   const std::map<SensorKind, std::pair<std::size_t, std::size_t>> plausible = {{SensorKind::kHdl64, {100'000, 133'000}},
                                                                                {SensorKind::kVlp16, {20'000, 28'800}},
-                                                                               {SensorKind::kOs1_64, {45'000, 65'000}}};
+                                                                               {SensorKind::kOs1, {45'000, 65'000}}};
   for (const auto& [kind, band] : plausible) {
     DriveConfig config = small_drive();
     config.sensor = kind;

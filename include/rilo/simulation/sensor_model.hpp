@@ -9,7 +9,7 @@
 
 namespace rilo {
 
-enum class SensorKind : std::uint8_t { kHdl64, kVlp16, kOs1_64 };
+enum class SensorKind : std::uint8_t { kHdl64, kVlp16, kOs1 };
 
 /// hdl64, vlp16, os1-64.
 std::string_view to_string(SensorKind kind);

@@ -43,7 +43,7 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
     choice.reason = InitialPoseReason::kCoarseDisabled;
     return choice;
   }
-  const bool doubt = in_doubt || prediction.score < config_.alarm * usual_score_;
+  const bool doubt = in_doubt || !explains(prediction.score);
   if (!doubt && !coarse_.always) {
     return choice;
   }
@@ -51,7 +51,7 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
   const DistributionCloud target = distribution(target_);
   ScoredPose best{prediction.T_odom_lidar, -1.0};
   int iterations = 0;
-  for (const SE3& start : starts(predicted, previous, map, doubt)) {
+  const auto try_from = [&](const SE3& start) {
     const CoarseResult result = coarse_registration(moving, target, previous.inverse() * start, coarse_);
     iterations += result.iterations;
     // Each candidate implies its own motion during the sweep, and is judged on the sweep compensated for it.
@@ -60,6 +60,16 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
     if (value > best.score) {
       best = {state.T_odom_lidar, value};
     }
+  };
+  try_from(predicted.T_odom_lidar);
+  if (doubt && !explains(best.score)) {
+    try_from(previous);  // no motion
+  }
+  if (doubt && config_.restarts && !explains(best.score)) {
+    deskew(source, predicted.twist, compensated_);
+    for (const SE3& start : restarts(previous, map)) {
+      try_from(start);
+    }
   }
   choice = select_initial_pose(prediction, best, config_);
   choice.coarse_ran = true;
@@ -67,21 +77,13 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
   return choice;
 }
 
-std::vector<SE3> InitialPoseStage::starts(const MotionState& predicted, const SE3& previous, const LocalMap& map,
-                                          bool in_doubt) const {
-  std::vector<SE3> poses{predicted.T_odom_lidar};
-  if (!in_doubt) {
-    return poses;
-  }
-  poses.push_back(previous);  // no motion
-  if (config_.restarts) {
-    const PoseGrid grid{config_.search_shift_m, kSearchShiftStepM, config_.search_yaw_rad, kSearchYawStepRad};
-    const auto points = evenly_picked(compensated_, kSearchPoints);
-    for (const SE3& T : search_poses(points, map, previous, grid, kSearchSigmaM, kSearchStarts)) {
-      poses.push_back(T);
-    }
-  }
-  return poses;
+bool InitialPoseStage::explains(double score) const {
+  return usual_score_ > 0.0 && score >= config_.alarm * usual_score_;
+}
+
+std::vector<SE3> InitialPoseStage::restarts(const SE3& previous, const LocalMap& map) const {
+  const PoseGrid grid{config_.search_shift_m, kSearchShiftStepM, config_.search_yaw_rad, kSearchYawStepRad};
+  return search_poses(evenly_picked(compensated_, kSearchPoints), map, previous, grid, kSearchSigmaM, kSearchStarts);
 }
 
 double InitialPoseStage::score(const TimedCloud& source, const MotionState& state, const LocalMap& map) {
@@ -108,7 +110,7 @@ DistributionCloud InitialPoseStage::distribution(const std::vector<Eigen::Vector
   for (const std::uint32_t i : sampler_.sample(points, coarse_.voxel_m)) {
     sampled.push_back(points[i]);
   }
-  return make_distribution_cloud(sampled, coarse_);
+  return make_distribution_cloud(evenly_picked(sampled, static_cast<std::size_t>(coarse_.max_points)), coarse_);
 }
 
 }  // namespace rilo

@@ -38,6 +38,7 @@ void validate(const OdometryConfig& c) {
       {"preprocess.max_voxel_m", c.preprocess.max_voxel_m, c.preprocess.min_voxel_m, 1e2},
       {"preprocess.map_voxel_ratio", c.preprocess.map_voxel_ratio, 0.1, 1},
       {"coarse.voxel_m", c.coarse.voxel_m, 1e-2, 1e2},
+      {"coarse.max_points", static_cast<double>(c.coarse.max_points), 10, 1e7},
       {"coarse.density_radius_m", c.coarse.density_radius_m, 1e-2, 1e2},
       {"coarse.density_percentile", c.coarse.density_percentile, 0, 99},
       {"coarse.neighbours", static_cast<double>(c.coarse.neighbours), 4, 100},

@@ -63,7 +63,10 @@ class InitialPoseStage {
 
  private:
   DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points);
-  std::vector<SE3> starts(const MotionState& predicted, const SE3& previous, const LocalMap& map, bool in_doubt) const;
+  /// Whether a score is not far below the usual one.
+  bool explains(double score) const;
+  /// Further starts for the coarse stage: the best poses of a search around the last one, on the sweep as compensated last.
+  std::vector<SE3> restarts(const SE3& previous, const LocalMap& map) const;
 
   InitialPoseConfig config_;
   CoarseRegistrationConfig coarse_;

@@ -1,0 +1,70 @@
+#include "evaluation_output.hpp"
+
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace rilo::cli {
+
+namespace {
+
+nlohmann::json number(const std::optional<double>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json summary(const ErrorSummary& s) {
+  return {{"rmse", s.rmse}, {"mean", s.mean}, {"std", s.std}, {"median", s.median}, {"max", s.max}};
+}
+
+std::string row(const char* name, const ErrorSummary& s, const char* unit) {
+  return fmt::format("{:<34} rmse {:>9.4f}  mean {:>9.4f}  std {:>9.4f}  median {:>9.4f}  max {:>9.4f} {}\n", name, s.rmse, s.mean, s.std,
+                     s.median, s.max, unit);
+}
+
+}  // namespace
+
+nlohmann::json evaluation_json(const Evaluation& e) {
+  // One sequence is its own mean: pooled and per-sequence averages differ once several are put together.
+  return {{"poses", e.poses},
+          {"path_m", e.path_m},
+          {"t_rel_pct", number(e.kitti.t_rel_pct())},
+          {"r_rel_deg_per_100m", number(e.kitti.r_rel_deg_100m())},
+          {"t_rel_protocol", e.kitti.short_path ? "KITTI, lengths eighths of 80 % of the path" : "KITTI, 100 … 800 m"},
+          {"ape_m", summary(e.ape.translation_m)},
+          {"ape_rotation_deg", summary(e.ape.rotation_deg)},
+          {"ape_unaligned_m", summary(e.ape_unaligned.translation_m)},
+          {"rpe_frame_m", summary(e.rpe_frame.translation_m)},
+          {"rpe_frame_deg", summary(e.rpe_frame.rotation_deg)},
+          {"rpe_metre_m_per_m", summary(e.rpe_metre.translation_m)},
+          {"rpe_metre_deg_per_m", summary(e.rpe_metre.rotation_deg)},
+          {"end_error_m", e.end_error_m},
+          {"end_error_pct", e.end_error_pct}};
+}
+
+std::string evaluation_table(const Evaluation& e) {
+  std::string text = fmt::format("{} poses, path {:.1f} m\n", e.poses, e.path_m);
+  const auto t_rel = e.kitti.t_rel_pct();
+  const auto r_rel = e.kitti.r_rel_deg_100m();
+  if (t_rel && r_rel) {
+    text += fmt::format("{:<34} t_rel {:.4f} %   r_rel {:.4f} deg/100m   ({} segments; {})\n", "KITTI relative error", *t_rel, *r_rel,
+                        e.kitti.segments.size(),
+                        e.kitti.short_path ? "short path: lengths k/8 of 80 % of it" : "100 … 800 m, every 10 poses, pooled");
+    for (const KittiLengthError& length : e.kitti.per_length()) {
+      text += fmt::format("  {:>7.1f} m {:>28} {:.4f} %         {:.4f} deg/100m\n", length.length_m, "", length.t_rel_pct,
+                          length.r_rel_deg_100m);
+    }
+  } else {
+    text += "KITTI relative error: the path is too short for any segment\n";
+  }
+  text += row("APE, SE(3) Umeyama aligned", e.ape.translation_m, "m");
+  text += row("APE rotation, aligned", e.ape.rotation_deg, "deg");
+  text += row("APE, unaligned (first pose equal)", e.ape_unaligned.translation_m, "m");
+  text += row("RPE per frame", e.rpe_frame.translation_m, "m");
+  text += row("RPE per frame, rotation", e.rpe_frame.rotation_deg, "deg");
+  text += row("RPE per metre", e.rpe_metre.translation_m, "m/m");
+  text += row("RPE per metre, rotation", e.rpe_metre.rotation_deg, "deg/m");
+  text += fmt::format("{:<34} {:.4f} m ({:.4f} % of the path)\n", "End point", e.end_error_m, e.end_error_pct);
+  return text;
+}
+
+}  // namespace rilo::cli

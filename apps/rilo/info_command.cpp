@@ -1,0 +1,209 @@
+// rilo info: what a data set holds.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "rilo/io/ground_truth.hpp"
+#include "rilo/io/io_error.hpp"
+#include "rilo/io/scan_source.hpp"
+#include "source_flags.hpp"
+
+namespace rilo::cli {
+
+namespace {
+
+struct InfoFlags {
+  std::string data;
+  SourceOptions source;
+  bool json = false;
+  bool all = false;
+};
+
+constexpr std::size_t kLookedAt = 50;      // sweeps whose points are read, spread evenly over the data by skipping
+constexpr double kGapFactor = 1.5;         // a gap this many periods long has lost a sweep
+
+struct Survey {
+  std::size_t sweeps = 0;
+  std::size_t read = 0;
+  std::size_t points = 0;
+  std::size_t least = 0;
+  std::size_t most = 0;
+  std::size_t not_finite = 0;
+  std::vector<float> ranges;
+  std::vector<std::int64_t> stamps;
+  float times_begin = 0;
+  float times_end = 0;
+  bool timed = false;
+  int rings = 0;
+  bool intensity = false;
+};
+
+void look_at(const Sweep& sweep, Survey& survey) {
+  const std::size_t n = sweep.points.size();
+  survey.least = survey.read == 0 ? n : std::min(survey.least, n);
+  survey.most = std::max(survey.most, n);
+  survey.points += n;
+  ++survey.read;
+  const std::size_t stride = std::max<std::size_t>(1, n / 2000);  // enough for percentiles
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool finite = sweep.points[i].allFinite();
+    survey.not_finite += finite ? 0 : 1;
+    if (finite && i % stride == 0) {
+      survey.ranges.push_back(sweep.points[i].norm());
+    }
+  }
+  if (!sweep.times_s.empty()) {
+    const auto [begin, end] = std::minmax_element(sweep.times_s.begin(), sweep.times_s.end());
+    survey.times_begin = survey.timed ? std::min(survey.times_begin, *begin) : *begin;
+    survey.times_end = survey.timed ? std::max(survey.times_end, *end) : *end;
+    survey.timed = true;
+  }
+  for (const std::uint16_t ring : sweep.rings) {
+    survey.rings = std::max(survey.rings, static_cast<int>(ring) + 1);
+  }
+  survey.intensity = survey.intensity || !sweep.intensities.empty();
+}
+
+Survey survey_of(ScanSource& source, bool all) {
+  Survey survey;
+  const std::size_t total = source.size().value_or(0);
+  const std::size_t step = all || total <= kLookedAt ? 1 : total / kLookedAt;
+  while (const auto sweep = source.next()) {
+    look_at(*sweep, survey);
+    survey.stamps.push_back(sweep->stamp_ns);
+    survey.sweeps += 1 + source.skip(step - 1);
+  }
+  return survey;
+}
+
+nlohmann::json range_percentiles(std::vector<float> ranges) {
+  if (ranges.empty()) {
+    return nullptr;
+  }
+  std::sort(ranges.begin(), ranges.end());
+  const auto at = [&](double share) { return ranges[static_cast<std::size_t>(share * static_cast<double>(ranges.size() - 1))]; };
+  return {{"p5", at(0.05)}, {"median", at(0.5)}, {"p95", at(0.95)}, {"max", ranges.back()}};
+}
+
+nlohmann::json stamps_json(const Survey& survey, const SourceInfo& info, bool complete) {
+  nlohmann::json json = {{"period_s", info.period_s}, {"assumed", info.stamps_assumed}};
+  if (survey.stamps.empty()) {
+    return json;
+  }
+  json["span_s"] = static_cast<double>(survey.stamps.back() - survey.stamps.front()) * 1e-9;
+  if (complete) {
+    std::size_t gaps = 0;
+    std::size_t backward = 0;
+    for (std::size_t i = 1; i < survey.stamps.size(); ++i) {
+      const double dt = static_cast<double>(survey.stamps[i] - survey.stamps[i - 1]) * 1e-9;
+      gaps += dt > kGapFactor * info.period_s ? 1 : 0;
+      backward += dt <= 0.0 ? 1 : 0;
+    }
+    json["gaps"] = gaps;
+    json["not_increasing"] = backward;
+  }
+  return json;
+}
+
+nlohmann::json truth_json(const std::string& data) {
+  try {
+    const auto truth = read_ground_truth(data, TruthInstant::kMid);
+    return truth ? nlohmann::json{{"file", truth->file.string()}, {"poses", truth->T_world_lidar.size()}, {"instant", truth->instant}}
+                 : nlohmann::json(nullptr);
+  } catch (const IoError& error) {
+    return {{"error", error.what()}};
+  }
+}
+
+nlohmann::json describe(const InfoFlags& flags) {
+  const auto source = open_scan_source(flags.data, flags.source);
+  const Survey survey = survey_of(*source, flags.all);
+  const SourceInfo info = source->info();
+  const bool complete = survey.read == survey.sweeps;
+  const double mean = survey.read == 0 ? 0.0 : static_cast<double>(survey.points) / static_cast<double>(survey.read);
+  nlohmann::json json = {
+      {"data", flags.data},
+      {"kind", info.kind},
+      {"format", info.format},
+      {"sweeps", survey.sweeps},
+      {"sweeps_read", survey.read},
+      {"points", {{"min", survey.least}, {"mean", mean}, {"max", survey.most}, {"not_finite", survey.not_finite}}},
+      {"range_m", range_percentiles(survey.ranges)},
+      {"stamps", stamps_json(survey, info, complete)},
+      {"point_times", {{"source", info.point_times}}},
+      {"intensity", survey.intensity},
+      {"rings", survey.rings},
+      {"calibration", info.T_cam_lidar.has_value()},
+      {"elevation_correction_deg", info.elevation_correction_deg},
+      {"truth", truth_json(flags.data)},
+      {"bad_sweeps", info.bad_sweeps},
+      {"warnings", info.warnings},
+  };
+  if (survey.timed) {
+    json["point_times"]["begin_s"] = survey.times_begin;
+    json["point_times"]["end_s"] = survey.times_end;
+  }
+  return json;
+}
+
+std::string as_text(const nlohmann::json& j) {
+  std::string text = fmt::format("{}: {}, {} sweeps of {}\n", j["data"].get<std::string>(), j["kind"].get<std::string>(),
+                                 j["sweeps"].get<std::size_t>(), j["format"].get<std::string>());
+  const auto& points = j["points"];
+  text += fmt::format("points        min {} mean {:.0f} max {}, {} not finite (of {} sweeps read)\n", points["min"].get<std::size_t>(),
+                      points["mean"].get<double>(), points["max"].get<std::size_t>(), points["not_finite"].get<std::size_t>(),
+                      j["sweeps_read"].get<std::size_t>());
+  if (!j["range_m"].is_null()) {
+    const auto& range = j["range_m"];
+    text += fmt::format("range         5 % {:.1f} m, median {:.1f} m, 95 % {:.1f} m, max {:.1f} m\n", range["p5"].get<double>(),
+                        range["median"].get<double>(), range["p95"].get<double>(), range["max"].get<double>());
+  }
+  const auto& stamps = j["stamps"];
+  text += fmt::format("stamps        every {:.4f} s{}", stamps["period_s"].get<double>(),
+                      stamps["assumed"].get<bool>() ? " (assumed: the data has none)" : "");
+  if (stamps.contains("gaps")) {
+    text += fmt::format(", {} gaps, {} not increasing", stamps["gaps"].get<std::size_t>(), stamps["not_increasing"].get<std::size_t>());
+  }
+  text += "\npoint times   " + j["point_times"]["source"].get<std::string>();
+  if (j["point_times"].contains("begin_s")) {
+    text += fmt::format(", {:.4f} … {:.4f} s", j["point_times"]["begin_s"].get<double>(), j["point_times"]["end_s"].get<double>());
+  }
+  text += fmt::format("\nfields        intensity {}, rings {}\n", j["intensity"].get<bool>() ? "yes" : "no", j["rings"].get<int>());
+  text += fmt::format("calibration   {}\n", j["calibration"].get<bool>() ? "LiDAR to camera (Tr)" : "none");
+  const auto& truth = j["truth"];
+  if (truth.is_null()) {
+    text += "ground truth  none\n";
+  } else if (truth.contains("error")) {
+    text += "ground truth  cannot be read: " + truth["error"].get<std::string>() + "\n";
+  } else {
+    text += fmt::format("ground truth  {} ({} poses, {})\n", truth["file"].get<std::string>(), truth["poses"].get<std::size_t>(),
+                        truth["instant"].get<std::string>());
+  }
+  for (const auto& warning : j["warnings"]) {
+    text += "warning       " + warning.get<std::string>() + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, int& exit_code) {
+  auto flags = std::make_shared<InfoFlags>();
+  CLI::App* command = app.add_subcommand("info", "what a data set holds");
+  command->footer("Example:\n  rilo info kitti/sequences/00");
+  command->add_option("DATA", flags->data, "folder or file with sweeps")->required();
+  command->add_flag("--all", flags->all, "read every sweep (counts gaps in the stamps too) instead of about fifty");
+  command->add_flag("--json", flags->json, "print JSON");
+  add_source_flags(*command, flags->source);
+  command->callback([flags, &exit_code] {
+    const nlohmann::json json = describe(*flags);
+    std::cout << (flags->json ? json.dump(2) + "\n" : as_text(json));
+    exit_code = kSuccess;
+  });
+}
+
+}  // namespace rilo::cli

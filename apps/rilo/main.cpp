@@ -1,0 +1,64 @@
+// The rilo command: parses, dispatches, and turns every error into one line and an exit code.
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include <CLI/CLI.hpp>
+
+#include "command.hpp"
+#include "rilo/config/config_file.hpp"
+#include "rilo/io/io_error.hpp"
+#include "version.hpp"
+
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  rilo simulate --out drive --sensor hdl64 --sweeps 200     make a drive to play with
+  rilo run drive --out results --map results/map.ply        odometry, map, figures, report.html
+  rilo eval drive results/poses_lidar.txt                   errors against ground truth
+  rilo config --dump > my.yaml                              every key with its unit and meaning
+
+Exit codes: 0 success, 1 unexpected error, 2 wrong usage or configuration, 3 data missing or malformed,
+4 results could not be written, 130 interrupted by Ctrl-C, 143 terminated (what was done is written).)";
+
+int fail(int code, const std::string& message) {
+  std::cerr << "rilo: error: " << message << '\n';
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace rilo;
+  int exit_code = cli::kSuccess;
+  CLI::App app{"Rilo: LiDAR-only odometry with a reliable initial pose", "rilo"};
+  app.set_version_flag("--version", std::string("rilo ") + cli::kVersion);
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  cli::add_run_command(app, exit_code);
+  cli::add_eval_command(app, exit_code);
+  cli::add_simulate_command(app, exit_code);
+  cli::add_config_command(app, exit_code);
+  cli::add_info_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      return app.exit(error);  // --help, --version
+    }
+    return fail(cli::kUsage, std::string(error.what()) + ". Try: rilo --help");
+  } catch (const cli::CommandError& error) {
+    return fail(error.code(), error.what());
+  } catch (const ConfigError& error) {
+    return fail(cli::kUsage, error.what());
+  } catch (const IoError& error) {
+    return fail(cli::kBadData, error.what());
+  } catch (const std::invalid_argument& error) {
+    return fail(cli::kUsage, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(cli::kUnexpected, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(cli::kUnexpected, error.what());
+  }
+}

@@ -1,0 +1,58 @@
+#include "progress.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace rilo::cli {
+
+namespace {
+constexpr std::chrono::milliseconds kBarInterval{100};
+constexpr std::chrono::seconds kLineInterval{5};
+constexpr std::size_t kBarWidth = 30;
+}  // namespace
+
+Progress::Progress(std::string what, std::optional<std::size_t> total, bool quiet)
+    : what_(std::move(what)), total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()),
+      shown_(begin_) {}
+
+void Progress::update(std::size_t done, const std::string& note) {
+  const auto now = Clock::now();
+  const auto interval = terminal_ ? Clock::duration(kBarInterval) : Clock::duration(kLineInterval);
+  const bool last = total_ && done == *total_;
+  if (quiet_ || (now - shown_ < interval && !(last && terminal_))) {
+    return;
+  }
+  shown_ = now;
+  if (terminal_) {
+    fmt::print(stderr, "\r\033[K{}", line(done, note));
+    open_line_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", line(done, note));
+  }
+  std::fflush(stderr);
+}
+
+std::string Progress::line(std::size_t done, const std::string& note) const {
+  const double seconds = std::max(1e-9, std::chrono::duration<double>(shown_ - begin_).count());
+  const double rate = static_cast<double>(done) / seconds;
+  if (!total_ || *total_ == 0) {
+    return fmt::format("{} {} sweeps, {:.1f}/s {}", what_, done, rate, note);
+  }
+  const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(*total_));
+  const auto filled = static_cast<std::size_t>(share * static_cast<double>(kBarWidth));
+  const double left = rate > 0.0 ? static_cast<double>(*total_ - std::min(done, *total_)) / rate : 0.0;
+  const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
+  return fmt::format("{} [{}] {}/{}  {:.1f}/s  {:.0f} s left  {}", what_, bar, done, *total_, rate, left, note);
+}
+
+void Progress::finish() {
+  if (open_line_) {
+    fmt::print(stderr, "\n");
+    open_line_ = false;
+  }
+}
+
+}  // namespace rilo::cli

@@ -1,0 +1,187 @@
+// Figures of a run: metrics.json and the lines printed at the end.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "evaluation_output.hpp"
+#include "rilo/io/ground_truth.hpp"
+#include "rilo/io/io_error.hpp"
+#include "run_record.hpp"
+#include "version.hpp"
+
+namespace rilo::cli {
+
+namespace {
+
+/// Nearest-rank percentile of sorted values.
+double percentile(const std::vector<double>& sorted, double percent) {
+  const double rank = std::ceil(percent / 100.0 * static_cast<double>(sorted.size()));
+  return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+nlohmann::json timing(const RunRecord& run) {
+  std::vector<double> ms;
+  for (const SweepResult& result : run.results) {
+    ms.push_back(result.stats.times.total_ms);
+  }
+  if (ms.empty()) {
+    return nullptr;
+  }
+  double sum = 0.0;
+  for (const double value : ms) {
+    sum += value;
+  }
+  std::sort(ms.begin(), ms.end());
+  return {{"mean", sum / static_cast<double>(ms.size())}, {"median", percentile(ms, 50)}, {"p95", percentile(ms, 95)},
+          {"p99", percentile(ms, 99)},                    {"max", ms.back()}};
+}
+
+nlohmann::json stage_means(const RunRecord& run) {
+  StageTimes sum;
+  for (const SweepResult& result : run.results) {
+    const StageTimes& t = result.stats.times;
+    sum.preprocess_ms += t.preprocess_ms;
+    sum.initial_pose_ms += t.initial_pose_ms;
+    sum.registration_ms += t.registration_ms;
+    sum.map_ms += t.map_ms;
+  }
+  const double n = std::max<double>(1.0, static_cast<double>(run.results.size()));
+  return {{"preprocess", sum.preprocess_ms / n},
+          {"initial_pose", sum.initial_pose_ms / n},
+          {"registration", sum.registration_ms / n},
+          {"map", sum.map_ms / n}};
+}
+
+double peak_rss_mb() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+nlohmann::json counts(const RunRecord& run) {
+  std::map<std::string, std::size_t> status;
+  std::map<std::string, std::size_t> initial;
+  std::size_t coarse_runs = 0;
+  double iterations = 0;
+  for (std::size_t i = 0; i < kStatusCount; ++i) {
+    status[std::string(to_string(static_cast<OdometryStatus>(i)))] = 0;
+  }
+  for (const SweepResult& result : run.results) {
+    ++status[std::string(to_string(result.status))];
+    ++initial[std::string(to_string(result.stats.initial_pose))];
+    coarse_runs += result.stats.coarse_ran ? 1 : 0;
+    iterations += result.stats.iterations;
+  }
+  return {{"status", status},
+          {"initial_pose", initial},
+          {"coarse_runs", coarse_runs},
+          {"mean_iterations", iterations / std::max<double>(1.0, static_cast<double>(run.results.size()))}};
+}
+
+}  // namespace
+
+nlohmann::json run_metrics(const RunRecord& run) {
+  nlohmann::json metrics = {
+      {"rilo_version", kVersion},
+      {"command", run.command_line},
+      {"data", run.data.string()},
+      {"format", run.source.kind + ", " + run.source.format},
+      {"frames", run.results.size()},
+      {"interrupted", run.signal != 0},
+      {"ms", timing(run)},
+      {"ms_note", "deskew to map update, reading excluded, no sweep left out"},
+      {"stage_mean_ms", stage_means(run)},
+      {"wall_s", run.wall_s},
+      {"peak_rss_mb", peak_rss_mb()},
+      {"threads", run.threads},
+      {"pose_instant", to_string(run.pose_instant)},
+      {"point_times", run.source.point_times},
+      {"motion_compensation", run.source.has_point_times && run.config.preprocess.deskew},
+      {"elevation_correction_deg", run.source.elevation_correction_deg},
+      {"bad_sweeps", run.source.bad_sweeps},
+      {"warnings", run.source.warnings},
+  };
+  metrics.update(counts(run));
+  if (!run.error.empty()) {
+    metrics["error"] = run.error;
+  }
+  if (run.evaluation) {
+    metrics["evaluation"] = evaluation_json(*run.evaluation);
+    metrics["evaluation"]["truth"] = run.truth->file;
+    metrics["evaluation"]["truth_instant"] = run.truth->instant;
+    // The headline figures at the top level too, where scripts look first.
+    for (const char* key : {"t_rel_pct", "r_rel_deg_per_100m"}) {
+      metrics[key] = metrics["evaluation"][key];
+    }
+    metrics["ape_rmse_m"] = metrics["evaluation"]["ape_m"]["rmse"];
+  }
+  return metrics;
+}
+
+std::string run_summary(const nlohmann::json& m) {
+  std::string text = fmt::format("{} sweeps of {}{}\n", m["frames"].get<std::size_t>(), m["data"].get<std::string>(),
+                                 m["interrupted"].get<bool>() ? " (interrupted)" : "");
+  if (!m["ms"].is_null()) {
+    text += fmt::format("time per sweep  mean {:.1f} ms, median {:.1f}, p95 {:.1f}, p99 {:.1f}, max {:.1f}  ({} threads)\n",
+                        m["ms"]["mean"].get<double>(), m["ms"]["median"].get<double>(), m["ms"]["p95"].get<double>(),
+                        m["ms"]["p99"].get<double>(), m["ms"]["max"].get<double>(), m["threads"].get<int>());
+  }
+  text += fmt::format("peak memory     {:.0f} MB\n", m["peak_rss_mb"].get<double>());
+  text += "status         ";
+  for (const auto& [name, count] : m["status"].items()) {
+    if (count.get<std::size_t>() > 0) {
+      text += fmt::format(" {} {}", name, count.get<std::size_t>());
+    }
+  }
+  text += fmt::format("\nposes at        {} of the sweep; point times: {}; elevation correction {} deg\n",
+                      m["pose_instant"].get<std::string>(), m["point_times"].get<std::string>(),
+                      m["elevation_correction_deg"].get<double>());
+  for (const auto& warning : m["warnings"]) {
+    text += "warning         " + warning.get<std::string>() + "\n";
+  }
+  if (m.contains("evaluation")) {
+    const auto& e = m["evaluation"];
+    text += fmt::format("against truth   APE {:.4f} m aligned, {:.4f} m unaligned; path {:.1f} m",
+                        e["ape_m"]["rmse"].get<double>(), e["ape_unaligned_m"]["rmse"].get<double>(), e["path_m"].get<double>());
+    if (!e["t_rel_pct"].is_null()) {
+      text += fmt::format("; t_rel {:.4f} %, r_rel {:.4f} deg/100m", e["t_rel_pct"].get<double>(),
+                          e["r_rel_deg_per_100m"].get<double>());
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+void evaluate_run(RunRecord& run) {
+  std::optional<GroundTruth> truth;
+  try {
+    const TruthInstant instant = run.pose_instant == PoseInstant::kStart ? TruthInstant::kStart
+                                 : run.pose_instant == PoseInstant::kEnd ? TruthInstant::kEnd
+                                                                         : TruthInstant::kMid;
+    truth = read_ground_truth(run.data, instant);
+  } catch (const IoError& error) {
+    run.source.warnings.push_back(std::string("ground truth left out: ") + error.what());
+  }
+  if (!truth) {
+    return;
+  }
+  TruthMatch match;
+  match.file = truth->file.string();
+  match.instant = truth->instant;
+  for (std::size_t i = 0; i < run.results.size(); ++i) {
+    if (run.indices[i] < truth->T_world_lidar.size()) {
+      match.truth.push_back(truth->T_world_lidar[run.indices[i]]);
+      match.estimate.push_back(run.results[i].T_odom_lidar);
+    }
+  }
+  run.source.warnings.insert(run.source.warnings.end(), truth->warnings.begin(), truth->warnings.end());
+  if (match.truth.size() >= 2) {
+    run.evaluation = evaluate(match.truth, match.estimate);
+  }
+  run.truth = std::move(match);
+}
+
+}  // namespace rilo::cli

@@ -1,0 +1,33 @@
+// The odometry's configuration to and from YAML.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rilo/config/config_error.hpp"
+#include "rilo/odometry/odometry_config.hpp"
+
+namespace rilo {
+
+/// The configuration `base` with what `file` says on top. A file may hold any part of the keys.
+/// @throws ConfigError with line and column: no YAML, unknown or repeated key (the nearest known one is named), wrong
+/// type, out of range, values that contradict each other.
+OdometryConfig load_config(const std::filesystem::path& file, const OdometryConfig& base = {});
+
+/// The same from text; `name` stands for the file in messages.
+OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base = {});
+
+/// Applies "key=value" in turn, e.g. "icp.max_iterations=20"; values that contradict each other are found at the end.
+/// @throws ConfigError
+OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std::string>& overrides);
+
+/// YAML with all keys, their units, ranges and meanings, in the order of odometry_keys. Loading it gives exactly
+/// `config`.
+std::string dump_config(const OdometryConfig& config);
+
+/// Tables of all keys with the values of `config` as defaults, for the documentation.
+std::string config_markdown(const OdometryConfig& config);
+
+}  // namespace rilo

@@ -1,0 +1,166 @@
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+
+#include <yaml-cpp/yaml.h>
+
+#include "rilo/config/config_file.hpp"
+#include "rilo/config/odometry_keys.hpp"
+
+namespace rilo {
+namespace {
+
+constexpr std::size_t kLargestFile = std::size_t{1} << 20;
+constexpr std::size_t kLongestQuote = 60;
+
+std::string position_of(const YAML::Mark& mark) {
+  if (mark.is_null()) return "";
+  return "line " + std::to_string(mark.line + 1) + ", column " + std::to_string(mark.column + 1);
+}
+
+std::string quoted(const std::string& text) {
+  return "\"" + (text.size() <= kLongestQuote ? text : text.substr(0, kLongestQuote) + "…") + "\"";
+}
+
+std::string kind_of(const YAML::Node& node) {
+  if (node.IsMap()) return "a map of keys";
+  if (node.IsSequence()) return "a list";
+  if (!node.IsScalar()) return "no value";
+  return quoted(node.Scalar());
+}
+
+// Where a value stands, for messages.
+struct Place {
+  std::string file;
+  std::string position;
+};
+
+[[noreturn]] void refuse_key(const ConfigKeys& keys, const std::string& name, const Place& place) {
+  throw ConfigError({place.file, place.position, "unknown key " + quoted(name), "a known key",
+                     "Did you mean " + keys.nearest(name) + "? `rilo config --dump` lists all keys"});
+}
+
+void set_key(const ConfigKey& key, const std::string& text, const Place& place) {
+  if (key.set(text)) return;
+  throw ConfigError({place.file, place.position, key.name() + " is " + quoted(text), key.expected(), ""});
+}
+
+// Values that are each in range and do not go together.
+void check_together(const OdometryConfig& config, const std::string& file) {
+  try {
+    validate(config);
+  } catch (const std::invalid_argument& error) {
+    throw ConfigError({file, "", error.what(), "", ""});
+  }
+}
+
+class Loader {
+ public:
+  Loader(const ConfigKeys& keys, std::string file) : keys_(keys), file_(std::move(file)) {}
+
+  void load(const YAML::Node& root) {
+    if (root.IsNull()) return;
+    if (!root.IsMap()) refuse(root, kind_of(root), "a map of keys");
+    load_map(root, "");
+  }
+
+ private:
+  void load_map(const YAML::Node& map, const std::string& prefix) {
+    for (const auto& pair : map) {
+      if (!pair.first.IsScalar()) refuse(pair.first, kind_of(pair.first), "the name of a key");
+      load_entry(prefix + pair.first.Scalar(), pair.first, pair.second);
+    }
+  }
+
+  void load_entry(const std::string& name, const YAML::Node& key_node, const YAML::Node& value) {
+    const Place place{file_, position_of(key_node.Mark())};
+    const ConfigKey* key = keys_.find(name);
+    if (key == nullptr && !keys_.has_section(name)) refuse_key(keys_, name, place);
+    if (!seen_.insert(name).second) {
+      throw ConfigError({file_, place.position, name + " is given a second time", "each key once", "Keep one of them"});
+    }
+    if (key == nullptr) {
+      if (!value.IsMap()) refuse(value.IsNull() ? key_node : value, name + " is " + kind_of(value), "a map of keys");
+      load_map(value, name + ".");
+      return;
+    }
+    if (!value.IsScalar()) refuse(value.IsNull() ? key_node : value, name + " is " + kind_of(value), key->expected());
+    const bool text_wanted = std::holds_alternative<ConfigKey::Choice>(key->binding());
+    if (value.Tag() == "!" && !text_wanted) refuse(value, name + " is text in quotes", key->expected());
+    set_key(*key, value.Scalar(), {file_, position_of(value.Mark())});
+  }
+
+  [[noreturn]] void refuse(const YAML::Node& node, const std::string& found, const std::string& expected) const {
+    throw ConfigError({file_, position_of(node.Mark()), found, expected, ""});
+  }
+
+  const ConfigKeys& keys_;
+  std::string file_;
+  std::set<std::string> seen_;
+};
+
+std::string read_text(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    const bool exists = std::filesystem::exists(file, error);
+    throw ConfigError({file, "", exists ? "this is no regular file" : "there is nothing of this name",
+                       "a configuration file (YAML)", "`rilo config --dump > FILE` makes one"});
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string text;
+  text.resize(kLargestFile + 1);
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad() || (stream.fail() && !stream.eof())) {
+    throw ConfigError({file, "", "it cannot be read", "a readable file", "Check its permissions"});
+  }
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > kLargestFile) {
+    throw ConfigError({file, "", "more than 1 MiB", "a configuration file (YAML)", "Check the path"});
+  }
+  return text;
+}
+
+}  // namespace
+
+OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base) {
+  OdometryConfig config = base;
+  const ConfigKeys keys = odometry_keys(config);
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(yaml));
+    if (documents.size() > 1) {
+      throw ConfigError({name, position_of(documents[1].Mark()), "a second document", "one document", ""});
+    }
+    if (!documents.empty()) Loader(keys, name).load(documents.front());
+  } catch (const YAML::Exception& error) {
+    throw ConfigError({name, position_of(error.mark), "this is no YAML (" + error.msg + ")", "\"key: value\" lines",
+                       "`rilo config --dump` shows how the file looks"});
+  }
+  check_together(config, name);
+  return config;
+}
+
+OdometryConfig load_config(const std::filesystem::path& file, const OdometryConfig& base) {
+  return parse_config(read_text(file), file.string(), base);
+}
+
+OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std::string>& overrides) {
+  OdometryConfig config = base;
+  const ConfigKeys keys = odometry_keys(config);
+  for (const std::string& text : overrides) {
+    const Place place{"--set " + text.substr(0, kLongestQuote), ""};
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw ConfigError({place.file, "", "there is no \"=\"", "key=value", "Example: --set icp.max_iterations=20"});
+    }
+    const std::string name = text.substr(0, equals);
+    const ConfigKey* key = keys.find(name);
+    if (key == nullptr) refuse_key(keys, name, place);
+    set_key(*key, text.substr(equals + 1), place);
+  }
+  if (!overrides.empty()) check_together(config, "--set");
+  return config;
+}
+
+}  // namespace rilo

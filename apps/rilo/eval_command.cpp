@@ -26,7 +26,8 @@ struct EvalFlags {
   bool json = false;
 };
 
-constexpr const char* kFooter = R"(GT is a pose file or a data folder with ground truth; EST is a pose file. KITTI form (12 numbers a line) or TUM form
+constexpr const char* kFooter =
+    R"(GT is a pose file or a data folder with ground truth; EST is a pose file. KITTI form (12 numbers a line) or TUM form
 (t x y z qx qy qz qw) is told from the first line. Both must be poses of the same sensor at the same instant of the sweep:
 rilo's own are at the middle (pose_instant in metrics.json), and for a folder of a drive simulator --instant chooses the truth.
 
@@ -66,7 +67,8 @@ PoseFile read_poses(const std::filesystem::path& file) {
     return poses;
   }
   if (count != 0 && count != 12) {
-    throw IoError({file, "first line", fmt::format("{} numbers", count), "12 (KITTI form) or 8 (TUM form)", "give a pose file"});
+    throw IoError(
+        {file, "first line", fmt::format("{} numbers", count), "12 (KITTI form) or 8 (TUM form)", "give a pose file"});
   }
   for (const SE3& T : read_kitti_poses(file)) {
     poses.trajectory.push_back({0, T});
@@ -80,7 +82,8 @@ PoseFile read_truth(const EvalFlags& flags) {
   }
   const auto truth = read_ground_truth(flags.truth, parse_truth_instant(flags.instant).value());
   if (!truth) {
-    throw IoError({flags.truth, "", "no ground truth", "poses.txt, poses_mid.txt or poses_velo.txt in it", "give the pose file itself"});
+    throw IoError({flags.truth, "", "no ground truth", "poses.txt, poses_mid.txt or poses_velo.txt in it",
+                   "give the pose file itself"});
   }
   PoseFile poses;
   for (const SE3& T : truth->T_world_lidar) {
@@ -102,8 +105,9 @@ MatchedPoses match(const EvalFlags& flags) {
     }
     return match_by_index(truth.trajectory, estimate.trajectory);
   } catch (const std::invalid_argument& error) {
-    throw CommandError(kBadData, fmt::format("{} ({} poses) and {} ({} poses): {}", flags.truth, truth.trajectory.size(),
-                                             flags.estimate, estimate.trajectory.size(), error.what()));
+    throw CommandError(kBadData,
+                       fmt::format("{} ({} poses) and {} ({} poses): {}", flags.truth, truth.trajectory.size(),
+                                   flags.estimate, estimate.trajectory.size(), error.what()));
   }
 }
 
@@ -132,7 +136,9 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   command->add_option("--instant", flags->instant, "instant of the true poses when GT is a drive simulator's folder")
       ->check(CLI::IsMember({"start", "mid", "end"}))
       ->capture_default_str();
-  command->add_option("--associate", flags->associate, "pair poses by index or by stamp; auto: by stamp when both files have stamps")
+  command
+      ->add_option("--associate", flags->associate,
+                   "pair poses by index or by stamp; auto: by stamp when both files have stamps")
       ->check(CLI::IsMember({"auto", "index", "stamp"}))
       ->capture_default_str();
   command->add_option("--max-gap-s", flags->max_gap_s, "largest distance of two stamps that belong together")

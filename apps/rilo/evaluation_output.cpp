@@ -17,8 +17,8 @@ nlohmann::json summary(const ErrorSummary& s) {
 }
 
 std::string row(const char* name, const ErrorSummary& s, const char* unit) {
-  return fmt::format("{:<34} rmse {:>9.4f}  mean {:>9.4f}  std {:>9.4f}  median {:>9.4f}  max {:>9.4f} {}\n", name, s.rmse, s.mean, s.std,
-                     s.median, s.max, unit);
+  return fmt::format("{:<34} rmse {:>9.4f}  mean {:>9.4f}  std {:>9.4f}  median {:>9.4f}  max {:>9.4f} {}\n", name,
+                     s.rmse, s.mean, s.std, s.median, s.max, unit);
 }
 
 }  // namespace
@@ -46,12 +46,13 @@ std::string evaluation_table(const Evaluation& e) {
   const auto t_rel = e.kitti.t_rel_pct();
   const auto r_rel = e.kitti.r_rel_deg_100m();
   if (t_rel && r_rel) {
-    text += fmt::format("{:<34} t_rel {:.4f} %   r_rel {:.4f} deg/100m   ({} segments; {})\n", "KITTI relative error", *t_rel, *r_rel,
-                        e.kitti.segments.size(),
-                        e.kitti.short_path ? "short path: lengths k/8 of 80 % of it" : "100 … 800 m, every 10 poses, pooled");
+    text += fmt::format(
+        "{:<34} t_rel {:.4f} %   r_rel {:.4f} deg/100m   ({} segments; {})\n", "KITTI relative error", *t_rel, *r_rel,
+        e.kitti.segments.size(),
+        e.kitti.short_path ? "short path: lengths k/8 of 80 % of it" : "100 … 800 m, every 10 poses, pooled");
     for (const KittiLengthError& length : e.kitti.per_length()) {
-      text += fmt::format("  {:>7.1f} m {:>28} {:.4f} %         {:.4f} deg/100m\n", length.length_m, "", length.t_rel_pct,
-                          length.r_rel_deg_100m);
+      text += fmt::format("  {:>7.1f} m {:>28} {:.4f} %         {:.4f} deg/100m\n", length.length_m, "",
+                          length.t_rel_pct, length.r_rel_deg_100m);
     }
   } else {
     text += "KITTI relative error: the path is too short for any segment\n";

@@ -23,8 +23,8 @@ struct InfoFlags {
   bool all = false;
 };
 
-constexpr std::size_t kLookedAt = 50;      // sweeps whose points are read, spread evenly over the data by skipping
-constexpr double kGapFactor = 1.5;         // a gap this many periods long has lost a sweep
+constexpr std::size_t kLookedAt = 50;  // sweeps whose points are read, spread evenly over the data by skipping
+constexpr double kGapFactor = 1.5;     // a gap this many periods long has lost a sweep
 
 struct Survey {
   std::size_t sweeps = 0;
@@ -85,7 +85,9 @@ nlohmann::json range_percentiles(std::vector<float> ranges) {
     return nullptr;
   }
   std::sort(ranges.begin(), ranges.end());
-  const auto at = [&](double share) { return ranges[static_cast<std::size_t>(share * static_cast<double>(ranges.size() - 1))]; };
+  const auto at = [&](double share) {
+    return ranges[static_cast<std::size_t>(share * static_cast<double>(ranges.size() - 1))];
+  };
   return {{"p5", at(0.05)}, {"median", at(0.5)}, {"p95", at(0.95)}, {"max", ranges.back()}};
 }
 
@@ -112,7 +114,9 @@ nlohmann::json stamps_json(const Survey& survey, const SourceInfo& info, bool co
 nlohmann::json truth_json(const std::string& data) {
   try {
     const auto truth = read_ground_truth(data, TruthInstant::kMid);
-    return truth ? nlohmann::json{{"file", truth->file.string()}, {"poses", truth->T_world_lidar.size()}, {"instant", truth->instant}}
+    return truth ? nlohmann::json{{"file", truth->file.string()},
+                                  {"poses", truth->T_world_lidar.size()},
+                                  {"instant", truth->instant}}
                  : nlohmann::json(nullptr);
   } catch (const IoError& error) {
     return {{"error", error.what()}};
@@ -151,28 +155,33 @@ nlohmann::json describe(const InfoFlags& flags) {
 }
 
 std::string as_text(const nlohmann::json& j) {
-  std::string text = fmt::format("{}: {}, {} sweeps of {}\n", j["data"].get<std::string>(), j["kind"].get<std::string>(),
-                                 j["sweeps"].get<std::size_t>(), j["format"].get<std::string>());
+  std::string text =
+      fmt::format("{}: {}, {} sweeps of {}\n", j["data"].get<std::string>(), j["kind"].get<std::string>(),
+                  j["sweeps"].get<std::size_t>(), j["format"].get<std::string>());
   const auto& points = j["points"];
-  text += fmt::format("points        min {} mean {:.0f} max {}, {} not finite (of {} sweeps read)\n", points["min"].get<std::size_t>(),
-                      points["mean"].get<double>(), points["max"].get<std::size_t>(), points["not_finite"].get<std::size_t>(),
-                      j["sweeps_read"].get<std::size_t>());
+  text += fmt::format("points        min {} mean {:.0f} max {}, {} not finite (of {} sweeps read)\n",
+                      points["min"].get<std::size_t>(), points["mean"].get<double>(), points["max"].get<std::size_t>(),
+                      points["not_finite"].get<std::size_t>(), j["sweeps_read"].get<std::size_t>());
   if (!j["range_m"].is_null()) {
     const auto& range = j["range_m"];
-    text += fmt::format("range         5 % {:.1f} m, median {:.1f} m, 95 % {:.1f} m, max {:.1f} m\n", range["p5"].get<double>(),
-                        range["median"].get<double>(), range["p95"].get<double>(), range["max"].get<double>());
+    text += fmt::format("range         5 % {:.1f} m, median {:.1f} m, 95 % {:.1f} m, max {:.1f} m\n",
+                        range["p5"].get<double>(), range["median"].get<double>(), range["p95"].get<double>(),
+                        range["max"].get<double>());
   }
   const auto& stamps = j["stamps"];
   text += fmt::format("stamps        every {:.4f} s{}", stamps["period_s"].get<double>(),
                       stamps["assumed"].get<bool>() ? " (assumed: the data has none)" : "");
   if (stamps.contains("gaps")) {
-    text += fmt::format(", {} gaps, {} not increasing", stamps["gaps"].get<std::size_t>(), stamps["not_increasing"].get<std::size_t>());
+    text += fmt::format(", {} gaps, {} not increasing", stamps["gaps"].get<std::size_t>(),
+                        stamps["not_increasing"].get<std::size_t>());
   }
   text += "\npoint times   " + j["point_times"]["source"].get<std::string>();
   if (j["point_times"].contains("begin_s")) {
-    text += fmt::format(", {:.4f} … {:.4f} s", j["point_times"]["begin_s"].get<double>(), j["point_times"]["end_s"].get<double>());
+    text += fmt::format(", {:.4f} … {:.4f} s", j["point_times"]["begin_s"].get<double>(),
+                        j["point_times"]["end_s"].get<double>());
   }
-  text += fmt::format("\nfields        intensity {}, rings {}\n", j["intensity"].get<bool>() ? "yes" : "no", j["rings"].get<int>());
+  text += fmt::format("\nfields        intensity {}, rings {}\n", j["intensity"].get<bool>() ? "yes" : "no",
+                      j["rings"].get<int>());
   text += fmt::format("calibration   {}\n", j["calibration"].get<bool>() ? "LiDAR to camera (Tr)" : "none");
   const auto& truth = j["truth"];
   if (truth.is_null()) {
@@ -180,8 +189,8 @@ std::string as_text(const nlohmann::json& j) {
   } else if (truth.contains("error")) {
     text += "ground truth  cannot be read: " + truth["error"].get<std::string>() + "\n";
   } else {
-    text += fmt::format("ground truth  {} ({} poses, {})\n", truth["file"].get<std::string>(), truth["poses"].get<std::size_t>(),
-                        truth["instant"].get<std::string>());
+    text += fmt::format("ground truth  {} ({} poses, {})\n", truth["file"].get<std::string>(),
+                        truth["poses"].get<std::size_t>(), truth["instant"].get<std::string>());
   }
   for (const auto& warning : j["warnings"]) {
     text += "warning       " + warning.get<std::string>() + "\n";

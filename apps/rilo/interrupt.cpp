@@ -8,9 +8,7 @@ namespace {
 
 volatile std::sig_atomic_t received = 0;
 
-extern "C" void on_signal(int number) {
-  received = number;
-}
+extern "C" void on_signal(int number) { received = number; }
 
 void install(int number) {
   struct sigaction action = {};
@@ -34,8 +32,6 @@ InterruptGuard::~InterruptGuard() {
   std::signal(SIGTERM, SIG_DFL);
 }
 
-int InterruptGuard::signal() {
-  return received;
-}
+int InterruptGuard::signal() { return received; }
 
 }  // namespace rilo::cli

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <unistd.h>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace rilo::cli {
 
@@ -15,7 +15,11 @@ constexpr std::size_t kBarWidth = 30;
 }  // namespace
 
 Progress::Progress(std::string what, std::optional<std::size_t> total, bool quiet)
-    : what_(std::move(what)), total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()),
+    : what_(std::move(what)),
+      total_(total),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      begin_(Clock::now()),
       shown_(begin_) {}
 
 void Progress::update(std::size_t done, const std::string& note) {

@@ -39,7 +39,8 @@ struct RunFlags {
   SourceOptions source;
 };
 
-constexpr const char* kFooter = R"(DATA is a KITTI sequence folder, a drive simulator's folder, a folder of .bin, .pcd or .ply sweeps, or one such file.
+constexpr const char* kFooter =
+    R"(DATA is a KITTI sequence folder, a drive simulator's folder, a folder of .bin, .pcd or .ply sweeps, or one such file.
 
 Examples:
   rilo run kitti/sequences/00 --out results/00 --elevation-correction 0.205
@@ -97,7 +98,8 @@ class PartialPoses {
 };
 
 std::int64_t steady_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
 }
 
 bool has_pose_of_its_own(OdometryStatus status) {
@@ -138,7 +140,8 @@ void run_sweeps(const RunFlags& flags, ScanSource& source, RunRecord& run) {
     if (has_pose_of_its_own(result.status)) {
       map.add(odometry.last_map_points(), result.T_odom_lidar);
     }
-    progress.update(run.results.size(), result.status == OdometryStatus::kOk ? "" : std::string(to_string(result.status)));
+    progress.update(run.results.size(),
+                    result.status == OdometryStatus::kOk ? "" : std::string(to_string(result.status)));
   }
   progress.finish();
   run.signal = InterruptGuard::signal();
@@ -204,13 +207,15 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--map", flags->map, "map of the whole run, .ply or .pcd");
   command->add_option("--start", flags->start, "leave out that many sweeps")->capture_default_str();
   command->add_option("--count", flags->count, "run that many sweeps; 0: all")->capture_default_str();
-  command->add_option("--threads", flags->threads, "threads; 0: as many as the machine has. Results do not depend on it")
+  command
+      ->add_option("--threads", flags->threads, "threads; 0: as many as the machine has. Results do not depend on it")
       ->check(CLI::Range(0, 1024));
   command->add_flag("--quiet", flags->quiet, "no progress and no summary");
   command->add_flag("--json", flags->json, "print metrics.json instead of the summary");
   command->add_flag("--no-report", flags->no_report, "do not write report.html");
   add_source_flags(*command, flags->source);
-  command->callback([flags, &exit_code, &app] { exit_code = run_command(*flags, app.get_name() + " run " + flags->data); });
+  command->callback(
+      [flags, &exit_code, &app] { exit_code = run_command(*flags, app.get_name() + " run " + flags->data); });
 }
 
 }  // namespace rilo::cli

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sys/resource.h>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include "evaluation_output.hpp"
 #include "rilo/io/ground_truth.hpp"
@@ -35,8 +35,11 @@ nlohmann::json timing(const RunRecord& run) {
     sum += value;
   }
   std::sort(ms.begin(), ms.end());
-  return {{"mean", sum / static_cast<double>(ms.size())}, {"median", percentile(ms, 50)}, {"p95", percentile(ms, 95)},
-          {"p99", percentile(ms, 99)},                    {"max", ms.back()}};
+  return {{"mean", sum / static_cast<double>(ms.size())},
+          {"median", percentile(ms, 50)},
+          {"p95", percentile(ms, 95)},
+          {"p99", percentile(ms, 99)},
+          {"max", ms.back()}};
 }
 
 nlohmann::json stage_means(const RunRecord& run) {
@@ -125,9 +128,10 @@ std::string run_summary(const nlohmann::json& m) {
   std::string text = fmt::format("{} sweeps of {}{}\n", m["frames"].get<std::size_t>(), m["data"].get<std::string>(),
                                  m["interrupted"].get<bool>() ? " (interrupted)" : "");
   if (!m["ms"].is_null()) {
-    text += fmt::format("time per sweep  mean {:.1f} ms, median {:.1f}, p95 {:.1f}, p99 {:.1f}, max {:.1f}  ({} threads)\n",
-                        m["ms"]["mean"].get<double>(), m["ms"]["median"].get<double>(), m["ms"]["p95"].get<double>(),
-                        m["ms"]["p99"].get<double>(), m["ms"]["max"].get<double>(), m["threads"].get<int>());
+    text +=
+        fmt::format("time per sweep  mean {:.1f} ms, median {:.1f}, p95 {:.1f}, p99 {:.1f}, max {:.1f}  ({} threads)\n",
+                    m["ms"]["mean"].get<double>(), m["ms"]["median"].get<double>(), m["ms"]["p95"].get<double>(),
+                    m["ms"]["p99"].get<double>(), m["ms"]["max"].get<double>(), m["threads"].get<int>());
   }
   text += fmt::format("peak memory     {:.0f} MB\n", m["peak_rss_mb"].get<double>());
   text += "status         ";
@@ -145,7 +149,8 @@ std::string run_summary(const nlohmann::json& m) {
   if (m.contains("evaluation")) {
     const auto& e = m["evaluation"];
     text += fmt::format("against truth   APE {:.4f} m aligned, {:.4f} m unaligned; path {:.1f} m",
-                        e["ape_m"]["rmse"].get<double>(), e["ape_unaligned_m"]["rmse"].get<double>(), e["path_m"].get<double>());
+                        e["ape_m"]["rmse"].get<double>(), e["ape_unaligned_m"]["rmse"].get<double>(),
+                        e["path_m"].get<double>());
     if (!e["t_rel_pct"].is_null()) {
       text += fmt::format("; t_rel {:.4f} %, r_rel {:.4f} deg/100m", e["t_rel_pct"].get<double>(),
                           e["r_rel_deg_per_100m"].get<double>());

@@ -18,12 +18,13 @@ namespace {
 
 std::string csv_line(std::size_t index, const SweepResult& r) {
   const SweepStats& s = r.stats;
-  std::string line = fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", index, r.stamp_ns, to_string(r.status), s.points_in,
-      s.points_valid, s.points_map, s.points_source, s.map_voxels, to_string(s.initial_pose), to_string(s.initial_pose_reason),
-      s.coarse_ran ? 1 : 0, s.coarse_iterations, s.pred_align_distance_m, s.prediction_score, s.map_score, s.iterations,
-      s.converged ? 1 : 0, s.inliers, s.inlier_ratio, s.residual_rms_m, s.sigma_th_m, s.gamma, s.deviation_m, r.twist.tail<3>().norm(),
-      r.twist.head<3>().norm());
+  std::string line =
+      fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", index, r.stamp_ns,
+                  to_string(r.status), s.points_in, s.points_valid, s.points_map, s.points_source, s.map_voxels,
+                  to_string(s.initial_pose), to_string(s.initial_pose_reason), s.coarse_ran ? 1 : 0,
+                  s.coarse_iterations, s.pred_align_distance_m, s.prediction_score, s.map_score, s.iterations,
+                  s.converged ? 1 : 0, s.inliers, s.inlier_ratio, s.residual_rms_m, s.sigma_th_m, s.gamma,
+                  s.deviation_m, r.twist.tail<3>().norm(), r.twist.head<3>().norm());
   for (const double eigenvalue : s.relative_eigenvalues) {
     line += fmt::format(",{}", eigenvalue);
   }
@@ -31,14 +32,19 @@ std::string csv_line(std::size_t index, const SweepResult& r) {
     line += fmt::format(",{}", std::sqrt(std::max(0.0, r.covariance(i, i))));
   }
   const StageTimes& t = s.times;
-  return line + fmt::format(",{},{},{},{},{}\n", t.preprocess_ms, t.initial_pose_ms, t.registration_ms, t.map_ms, t.total_ms);
+  return line +
+         fmt::format(",{},{},{},{},{}\n", t.preprocess_ms, t.initial_pose_ms, t.registration_ms, t.map_ms, t.total_ms);
 }
 
 constexpr const char* kCsvHeader =
-    "sweep,stamp_ns,status,points_in,points_valid,points_map,points_source,map_voxels,initial_pose,initial_pose_reason,coarse_ran,"
-    "coarse_iterations,pred_align_distance_m,prediction_score,map_score,iterations,converged,inliers,inlier_ratio,residual_rms_m,"
-    "sigma_th_m,gamma,deviation_m,speed_m_s,turn_rate_rad_s,eigenvalue_1,eigenvalue_2,eigenvalue_3,eigenvalue_4,eigenvalue_5,"
-    "eigenvalue_6,sigma_roll_rad,sigma_pitch_rad,sigma_yaw_rad,sigma_x_m,sigma_y_m,sigma_z_m,preprocess_ms,initial_pose_ms,"
+    "sweep,stamp_ns,status,points_in,points_valid,points_map,points_source,map_voxels,initial_pose,initial_pose_reason,"
+    "coarse_ran,"
+    "coarse_iterations,pred_align_distance_m,prediction_score,map_score,iterations,converged,inliers,inlier_ratio,"
+    "residual_rms_m,"
+    "sigma_th_m,gamma,deviation_m,speed_m_s,turn_rate_rad_s,eigenvalue_1,eigenvalue_2,eigenvalue_3,eigenvalue_4,"
+    "eigenvalue_5,"
+    "eigenvalue_6,sigma_roll_rad,sigma_pitch_rad,sigma_yaw_rad,sigma_x_m,sigma_y_m,sigma_z_m,preprocess_ms,initial_"
+    "pose_ms,"
     "registration_ms,map_ms,total_ms\n";
 
 std::string sweeps_csv(const RunRecord& run) {
@@ -107,8 +113,8 @@ void prepare_output(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) {
-    throw CommandError(kCannotWrite, folder.string() + ": cannot be created (" + (error ? error.message() : "it is not a folder") +
-                                         "); choose another --out");
+    throw CommandError(kCannotWrite, folder.string() + ": cannot be created (" +
+                                         (error ? error.message() : "it is not a folder") + "); choose another --out");
   }
   try {
     const AtomicFile probe(folder / "metrics.json");
@@ -117,7 +123,8 @@ void prepare_output(const std::filesystem::path& folder) {
   }
 }
 
-void write_outputs(const RunRecord& run, const nlohmann::json& metrics, const std::filesystem::path& folder, bool with_report) {
+void write_outputs(const RunRecord& run, const nlohmann::json& metrics, const std::filesystem::path& folder,
+                   bool with_report) {
   Trajectory trajectory;
   for (const SweepResult& result : run.results) {
     trajectory.push_back({result.stamp_ns, result.T_odom_lidar});

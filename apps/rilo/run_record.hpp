@@ -22,7 +22,7 @@ struct TruthMatch {
   std::vector<SE3> truth;     ///< of the sweeps that have one
   std::vector<SE3> estimate;  ///< the poses of the same sweeps
   std::string file;
-  std::string instant;        ///< what the true poses refer to
+  std::string instant;  ///< what the true poses refer to
   std::vector<std::string> warnings;
 };
 
@@ -49,14 +49,15 @@ nlohmann::json run_metrics(const RunRecord& run);
 /// The few lines that a person reads at the end.
 std::string run_summary(const nlohmann::json& metrics);
 
-/// Looks for ground truth beside the data and evaluates; a truth file that cannot be read becomes a warning of the source, since the
-/// run itself is good.
+/// Looks for ground truth beside the data and evaluates; a truth file that cannot be read becomes a warning of the
+/// source, since the run itself is good.
 void evaluate_run(RunRecord& run);
 
 /// Throws CommandError(kCannotWrite) unless results can be written into `folder`, which is created.
 void prepare_output(const std::filesystem::path& folder);
 
 /// Writes all result files into `folder`, each whole or not at all.
-void write_outputs(const RunRecord& run, const nlohmann::json& metrics, const std::filesystem::path& folder, bool with_report);
+void write_outputs(const RunRecord& run, const nlohmann::json& metrics, const std::filesystem::path& folder,
+                   bool with_report);
 
 }  // namespace rilo::cli

@@ -38,7 +38,8 @@ int simulate(const SimulateFlags& flags) {
   }
   progress.finish();
   if (!flags.quiet) {
-    std::cout << fmt::format("{} sweeps, {} points, {:.1f} m: {}\n", summary.sweeps, summary.points, summary.path_m, flags.out);
+    std::cout << fmt::format("{} sweeps, {} points, {:.1f} m: {}\n", summary.sweeps, summary.points, summary.path_m,
+                             flags.out);
   }
   return InterruptGuard::signal() == 0 ? kSuccess : 128 + InterruptGuard::signal();
 }
@@ -53,15 +54,18 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   command->add_option("--out", flags->out, "folder of the drive (created)")->required();
   command
       ->add_option_function<std::string>(
-          "--sensor", [&drive](const std::string& text) { drive.sensor = parse_sensor_kind(text).value(); }, "hdl64, vlp16 or os1-64")
+          "--sensor", [&drive](const std::string& text) { drive.sensor = parse_sensor_kind(text).value(); },
+          "hdl64, vlp16 or os1-64")
       ->check(CLI::IsMember({"hdl64", "vlp16", "os1-64"}));
-  command->add_option("--sweeps", drive.sweeps, "number of sweeps, 10 a second; 0: a lap and a bit")->capture_default_str();
+  command->add_option("--sweeps", drive.sweeps, "number of sweeps, 10 a second; 0: a lap and a bit")
+      ->capture_default_str();
   command->add_option("--seed", drive.seed, "town, traffic and noise")->capture_default_str();
   command->add_option("--start", drive.start_s, "seconds into the drive (0: standing)")->capture_default_str();
   command->add_option("--speed", drive.speed_mps, "m/s on straight streets")->capture_default_str();
   command->add_option("--noise", drive.noise_m, "standard deviation of a range, m")->capture_default_str();
   command->add_option("--dropout", drive.dropout, "share of returns that are lost")->capture_default_str();
-  command->add_option("--elevation-bias", drive.elevation_bias_deg, "degrees, true less reported elevation")->capture_default_str();
+  command->add_option("--elevation-bias", drive.elevation_bias_deg, "degrees, true less reported elevation")
+      ->capture_default_str();
   command->add_option("--moving-cars", drive.moving_cars, "0 … 12")->capture_default_str();
   command->add_option("--threads", drive.threads, "0: as many as the machine has")->capture_default_str();
   command->add_flag("--deskewed", drive.deskewed, "points referred to the middle of the sweep, without times");

@@ -57,7 +57,8 @@ void PointGrid::visit_ring(const Eigen::Vector3f& p, const VoxelIndex& centre, i
   for (int dz = -ring; dz <= ring; ++dz) {
     for (int dy = -ring; dy <= ring; ++dy) {
       const bool face = std::abs(dz) == ring || std::abs(dy) == ring;
-      const int step = face || ring == 0 ? 1 : 2 * ring;  // inside the shell only the two end cells of a row belong to it
+      const int step =
+          face || ring == 0 ? 1 : 2 * ring;  // inside the shell only the two end cells of a row belong to it
       for (int dx = -ring; dx <= ring; dx += step) {
         const Cell* cell = find_cell({centre.x + dx, centre.y + dy, centre.z + dz});
         if (cell == nullptr) {
@@ -96,7 +97,8 @@ bool PointGrid::nearest(const Eigen::Vector3f& p, double max_distance_m, Neighbo
   return best.index != 0xFFFFFFFFU;
 }
 
-void PointGrid::nearest(const Eigen::Vector3f& p, std::size_t k, double max_distance_m, std::vector<Neighbour>& found) const {
+void PointGrid::nearest(const Eigen::Vector3f& p, std::size_t k, double max_distance_m,
+                        std::vector<Neighbour>& found) const {
   found.clear();
   if (points_.empty() || k == 0) {
     return;

@@ -30,7 +30,8 @@ const PreparedSweep& Preprocessor::prepare(const Sweep& sweep) {
   normalise_times(sweep);
   prepared_.valid_points = cropped_.size();
   if (source_voxel_m_ <= 0.0) {
-    // The first sweep finds the scale of the place; a few rounds are enough because the count goes with about the square.
+    // The first sweep finds the scale of the place; a few rounds are enough because the count goes with about the
+    // square.
     source_voxel_m_ = config_.max_voxel_m;
     for (int round = 0; round < kFirstRounds; ++round) {
       downsample(source_voxel_m_);

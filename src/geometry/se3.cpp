@@ -24,8 +24,8 @@ Eigen::Matrix3d left_jacobian_inverse(const Eigen::Vector3d& phi) {
   const double theta2 = theta * theta;
   const Eigen::Matrix3d W = hat(phi);
   const double half = 0.5 * theta;
-  const double c = theta < kSmallAngleRad ? 1.0 / 12.0 + theta2 / 720.0
-                                          : (1.0 - half * std::cos(half) / std::sin(half)) / theta2;
+  const double c =
+      theta < kSmallAngleRad ? 1.0 / 12.0 + theta2 / 720.0 : (1.0 - half * std::cos(half) / std::sin(half)) / theta2;
   return Eigen::Matrix3d::Identity() - 0.5 * W + c * W * W;
 }
 
@@ -79,9 +79,7 @@ Matrix6d adjoint(const SE3& T) {
   return A;
 }
 
-SE3 interpolate(const SE3& a, const SE3& b, double s) {
-  return a * se3_exp(s * se3_log(a.inverse() * b));
-}
+SE3 interpolate(const SE3& a, const SE3& b, double s) { return a * se3_exp(s * se3_log(a.inverse() * b)); }
 
 SE3 renormalised(const SE3& T) {
   SE3 result = T;
@@ -89,8 +87,6 @@ SE3 renormalised(const SE3& T) {
   return result;
 }
 
-double rotation_angle_rad(const SE3& T) {
-  return so3_log(T.linear()).norm();
-}
+double rotation_angle_rad(const SE3& T) { return so3_log(T.linear()).norm(); }
 
 }  // namespace rilo

@@ -5,16 +5,14 @@
 
 namespace rilo {
 
-LocalMap::LocalMap(const LocalMapConfig& config) : config_(config) {
-  clear();
-}
+LocalMap::LocalMap(const LocalMapConfig& config) : config_(config) { clear(); }
 
 void LocalMap::clear() {
   grids_.clear();
   double voxel = config_.voxel_m;
   for (int level = 0; level < config_.levels; ++level, voxel *= 2.0) {
-    grids_.emplace_back(
-        voxel, PlaneCriteria{config_.min_points, config_.max_points, config_.max_planarity, config_.min_extent * voxel});
+    grids_.emplace_back(voxel, PlaneCriteria{config_.min_points, config_.max_points, config_.max_planarity,
+                                             config_.min_extent * voxel});
   }
 }
 
@@ -65,9 +63,8 @@ std::vector<Eigen::Vector3f> LocalMap::points() const {
   for (std::size_t level = 0; level < grids_.size(); ++level) {
     std::vector<Eigen::Vector3f> centroids;
     grids_[level].centroids(centroids);
-    std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(out), [&](const Eigen::Vector3f& p) {
-      return level == 0 || !grids_[level - 1].occupied(p.cast<double>());
-    });
+    std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(out),
+                 [&](const Eigen::Vector3f& p) { return level == 0 || !grids_[level - 1].occupied(p.cast<double>()); });
   }
   return out;
 }

@@ -10,7 +10,7 @@ namespace rilo {
 namespace {
 constexpr std::size_t kFirstSlots = 1U << 12U;
 constexpr double kFaceShare = 0.2;  // a face is near within this share of the voxel
-}
+}  // namespace
 
 PlaneGrid::PlaneGrid(double voxel_m, const PlaneCriteria& criteria)
     : voxel_m_(voxel_m), inverse_(1.0 / voxel_m), criteria_(criteria), slots_(kFirstSlots) {}
@@ -80,7 +80,8 @@ bool PlaneGrid::find(const Eigen::Vector3d& p, MapPlane& plane) const {
     return false;
   }
   const int step = offset[axis] > 0.0 ? 1 : -1;
-  const VoxelIndex behind{index.x + (axis == 0 ? step : 0), index.y + (axis == 1 ? step : 0), index.z + (axis == 2 ? step : 0)};
+  const VoxelIndex behind{index.x + (axis == 0 ? step : 0), index.y + (axis == 1 ? step : 0),
+                          index.z + (axis == 2 ? step : 0)};
   return plane_of(behind, plane);
 }
 

@@ -21,8 +21,8 @@ double AdaptiveThreshold::sigma_th_m() const {
 }
 
 void AdaptiveThreshold::update(const SE3& T_init, const SE3& T_new, const Eigen::Vector3d& acceleration) {
-  // γ_i = exp(−α_i / (Δt σ_decay)) with the sweep as unit of time (Δt = 1): with m/s² one centimetre of noise would be 1 m/s²,
-  // and γ would vanish always.
+  // γ_i = exp(−α_i / (Δt σ_decay)) with the sweep as unit of time (Δt = 1): with m/s² one centimetre of noise would be
+  // 1 m/s², and γ would vanish always.
   const double alpha = (acceleration - last_acceleration_).norm();
   last_acceleration_ = acceleration;
   gamma_ = std::exp(-alpha / config_.decay);
@@ -32,12 +32,8 @@ void AdaptiveThreshold::update(const SE3& T_init, const SE3& T_new, const Eigen:
   widening_ = 1.0;
 }
 
-void AdaptiveThreshold::widen() {
-  widening_ = std::min(2.0 * widening_, kMaxWidening);
-}
+void AdaptiveThreshold::widen() { widening_ = std::min(2.0 * widening_, kMaxWidening); }
 
-void AdaptiveThreshold::reset() {
-  *this = AdaptiveThreshold(config_);
-}
+void AdaptiveThreshold::reset() { *this = AdaptiveThreshold(config_); }
 
 }  // namespace rilo

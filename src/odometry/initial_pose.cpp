@@ -15,7 +15,8 @@ constexpr double kSearchYawStepRad = 0.1;
 constexpr std::size_t kSearchStarts = 4;
 }  // namespace
 
-InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse, const InitialPoseConfig& config) {
+InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse,
+                                const InitialPoseConfig& config) {
   InitialPose choice;
   const SE3 difference = prediction.T_odom_lidar.inverse() * coarse.T_odom_lidar;
   choice.pred_align_distance_m = difference.translation().norm();  // Δt_i
@@ -33,8 +34,8 @@ InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& 
   return choice;
 }
 
-InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous, double dt_s,
-                                     const LocalMap& map, bool in_doubt) {
+InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous,
+                                     double dt_s, const LocalMap& map, bool in_doubt) {
   const ScoredPose prediction{predicted.T_odom_lidar, score(source, predicted, map)};
   InitialPose choice;
   choice.T_odom_lidar = prediction.T_odom_lidar;
@@ -96,9 +97,7 @@ void InitialPoseStage::learn(double score) {
   usual_score_ = usual_score_ > 0.0 ? usual_score_ + kLearningRate * (score - usual_score_) : score;
 }
 
-void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twist) {
-  deskew(source, twist, target_);
-}
+void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twist) { deskew(source, twist, target_); }
 
 void InitialPoseStage::reset() {
   usual_score_ = 0.0;

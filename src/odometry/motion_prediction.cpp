@@ -4,9 +4,7 @@ namespace rilo {
 
 namespace {
 
-double seconds(std::int64_t from_ns, std::int64_t to_ns) {
-  return static_cast<double>(to_ns - from_ns) * 1e-9;
-}
+double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-9; }
 
 /// log ΔT_j / Δt_j of two consecutive poses.
 Vector6d velocity(const StampedPose& a, const StampedPose& b) {
@@ -34,7 +32,8 @@ Vector6d predict_velocity(const Trajectory& past, double sigma_th_m, const Motio
   return (1.0 - w_r) * velocity(past[n - 3], past[n - 2]) + w_r * recent;
 }
 
-SE3 predict_pose(const Trajectory& past, std::int64_t stamp_ns, double sigma_th_m, const MotionPredictionConfig& config) {
+SE3 predict_pose(const Trajectory& past, std::int64_t stamp_ns, double sigma_th_m,
+                 const MotionPredictionConfig& config) {
   if (past.empty()) {
     return SE3::Identity();
   }

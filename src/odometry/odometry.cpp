@@ -27,9 +27,13 @@ constexpr int kFirstSweepRounds = 2;
 class Odometry::Impl {
  public:
   Impl(const OdometryConfig& config, Clock clock)
-      : config_(config), clock_(std::move(clock)),
-        arena_(config.threads > 0 ? config.threads : tbb::task_arena::automatic), preprocessor_(config.preprocess),
-        initial_pose_(config.initial_pose, config.coarse), threshold_(config.threshold), map_(config.map) {
+      : config_(config),
+        clock_(std::move(clock)),
+        arena_(config.threads > 0 ? config.threads : tbb::task_arena::automatic),
+        preprocessor_(config.preprocess),
+        initial_pose_(config.initial_pose, config.coarse),
+        threshold_(config.threshold),
+        map_(config.map) {
     validate(config);
   }
 
@@ -49,10 +53,11 @@ class Odometry::Impl {
   SweepResult process(const Sweep& sweep);
   SweepResult start(const PreparedSweep& prepared, SweepResult result);
   void register_prepared(const PreparedSweep& prepared, SweepResult& result);
-  IcpResult fine_registration(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init, double dt_s,
-                              double sigma_th_m);
+  IcpResult fine_registration(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init,
+                              double dt_s, double sigma_th_m);
   IcpResult with_first_sweep_compensated(const PreparedSweep& prepared, IcpResult icp, double dt_s, double sigma_th_m);
-  void accept(const PreparedSweep& prepared, const IcpResult& icp, const SE3& T_init, double score, SweepResult& result);
+  void accept(const PreparedSweep& prepared, const IcpResult& icp, const SE3& T_init, double score,
+              SweepResult& result);
   void lose(const PreparedSweep& prepared, const MotionState& predicted, SweepResult& result);
   void insert(const TimedCloud& cloud);
   std::int64_t usable_stamp(std::int64_t stamp_ns) const;
@@ -152,7 +157,8 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
   // Health, adaptive threshold (III-C) and local map.
   const double score = initial_pose_.score(prepared.source, icp.state, map_);
   result.stats.map_score = score;
-  result.status = judge(icp, {prepared.source.size(), score, initial_pose_.usual_score(), lost_sweeps_ > 0}, config_.health);
+  result.status =
+      judge(icp, {prepared.source.size(), score, initial_pose_.usual_score(), lost_sweeps_ > 0}, config_.health);
   if (result.status == OdometryStatus::kLost) {
     lose(prepared, predicted, result);
   } else {
@@ -161,8 +167,8 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
   result.stats.times.map_ms = ms_since(mark);
 }
 
-IcpResult Odometry::Impl::fine_registration(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init,
-                                            double dt_s, double sigma_th_m) {
+IcpResult Odometry::Impl::fine_registration(const PreparedSweep& prepared, const MotionState& predicted,
+                                            const InitialPose& init, double dt_s, double sigma_th_m) {
   MotionState initial = predicted;
   MotionState expected = state_;
   expected.T_odom_lidar = state_.T_odom_lidar * se3_exp(dt_s * state_.twist);
@@ -183,7 +189,8 @@ IcpResult Odometry::Impl::with_first_sweep_compensated(const PreparedSweep& prep
   if (!first_cloud_.timed()) {
     return icp;
   }
-  // The first sweep went into the map as if the sensor had stood still. Now that its velocity is known, it is put right.
+  // The first sweep went into the map as if the sensor had stood still. Now that its velocity is known, it is put
+  // right.
   for (int round = 0; round < kFirstSweepRounds; ++round) {
     map_.clear();
     state_.twist = icp.state.twist;
@@ -203,7 +210,8 @@ void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp,
   state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
   const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());
   velocity_covariance_ = covariance.bottomRightCorner<6, 6>();
-  // The registration perturbs rotation and translation along the axes of the odometry frame; the result is in the sensor's own.
+  // The registration perturbs rotation and translation along the axes of the odometry frame; the result is in the
+  // sensor's own.
   const Eigen::Matrix3d R = state_.T_odom_lidar.linear();
   Matrix6d to_body = Matrix6d::Zero();
   to_body.topLeftCorner<3, 3>() = R.transpose();
@@ -271,29 +279,20 @@ void Odometry::Impl::reset() {
   map_points_.clear();
 }
 
-Odometry::Odometry(const OdometryConfig& config, Clock clock) : impl_(std::make_unique<Impl>(config, std::move(clock))) {}
+Odometry::Odometry(const OdometryConfig& config, Clock clock)
+    : impl_(std::make_unique<Impl>(config, std::move(clock))) {}
 Odometry::~Odometry() = default;
 Odometry::Odometry(Odometry&&) noexcept = default;
 Odometry& Odometry::operator=(Odometry&&) noexcept = default;
 
-SweepResult Odometry::register_sweep(const Sweep& sweep) {
-  return impl_->register_sweep(sweep);
-}
+SweepResult Odometry::register_sweep(const Sweep& sweep) { return impl_->register_sweep(sweep); }
 
-const Trajectory& Odometry::trajectory() const {
-  return impl_->trajectory();
-}
+const Trajectory& Odometry::trajectory() const { return impl_->trajectory(); }
 
-std::vector<Eigen::Vector3f> Odometry::local_map() const {
-  return impl_->map().points();
-}
+std::vector<Eigen::Vector3f> Odometry::local_map() const { return impl_->map().points(); }
 
-const std::vector<Eigen::Vector3f>& Odometry::last_map_points() const {
-  return impl_->map_points();
-}
+const std::vector<Eigen::Vector3f>& Odometry::last_map_points() const { return impl_->map_points(); }
 
-void Odometry::reset() {
-  impl_->reset();
-}
+void Odometry::reset() { impl_->reset(); }
 
 }  // namespace rilo

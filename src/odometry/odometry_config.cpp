@@ -20,7 +20,8 @@ void check(std::initializer_list<Bound> bounds) {
   for (const Bound& b : bounds) {
     if (!(b.value >= b.least && b.value <= b.most)) {
       throw std::invalid_argument(std::string("configuration: ") + b.name + " is " + std::to_string(b.value) +
-                                  ", expected a number from " + std::to_string(b.least) + " to " + std::to_string(b.most));
+                                  ", expected a number from " + std::to_string(b.least) + " to " +
+                                  std::to_string(b.most));
     }
   }
 }

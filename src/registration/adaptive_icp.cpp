@@ -78,7 +78,7 @@ NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const M
         continue;
       }
       const double beta = config.adaptive ? sigma2 / (sigma2 + e * e) : 1.0;  // β_k
-      Vector6d J;  // [(p × n)ᵀ nᵀ]
+      Vector6d J;                                                             // [(p × n)ᵀ nᵀ]
       J << lever.cross(plane.normal), plane.normal;
       if (refine) {
         sum.add(J, e, beta, static_cast<double>(source.offsets_s[i]));
@@ -98,10 +98,11 @@ NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const M
 namespace {
 
 /// One Gauss-Newton step with damping; false when the system says nothing.
-bool step(const NormalEquations& sums, const MotionPrior& prior, const AdaptiveIcpConfig& config, double information_scale,
-          IcpResult& result, Vector12d& delta) {
+bool step(const NormalEquations& sums, const MotionPrior& prior, const AdaptiveIcpConfig& config,
+          double information_scale, IcpResult& result, Vector12d& delta) {
   const double variance = sums.squared_error / sums.weight;
-  const double scale = information_scale * config.independent_share / std::max(variance, config.noise_m * config.noise_m);
+  const double scale =
+      information_scale * config.independent_share / std::max(variance, config.noise_m * config.noise_m);
   result.inliers = sums.count;
   result.residual_rms_m = std::sqrt(variance);
   result.lidar_information = scale * sums.pose_hessian();
@@ -126,8 +127,8 @@ bool step(const NormalEquations& sums, const MotionPrior& prior, const AdaptiveI
 
 }  // namespace
 
-IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial, const MotionPrior& prior,
-                       double sigma_th_m, const AdaptiveIcpConfig& config) {
+IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial,
+                       const MotionPrior& prior, double sigma_th_m, const AdaptiveIcpConfig& config) {
   IcpResult result;
   result.state = initial;
   std::size_t stride = source.size() >= kLeastForStride ? static_cast<std::size_t>(config.coarse_stride) : 1;
@@ -135,8 +136,7 @@ IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const Moti
     ++result.iterations;
     const NormalEquations sums = linearise(source, map, result.state, sigma_th_m, config, stride);
     Vector12d delta;
-    if (sums.count < kLeastCorrespondences ||
-        !step(sums, prior, config, static_cast<double>(stride), result, delta)) {
+    if (sums.count < kLeastCorrespondences || !step(sums, prior, config, static_cast<double>(stride), result, delta)) {
       result.inliers = sums.count;
       break;
     }

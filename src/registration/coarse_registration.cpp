@@ -17,7 +17,8 @@ constexpr double kTranslationEpsilonM = 5e-3;
 constexpr std::size_t kLeastPairs = 20;
 }  // namespace
 
-DistributionCloud make_distribution_cloud(const std::vector<Eigen::Vector3f>& points, const CoarseRegistrationConfig& config) {
+DistributionCloud make_distribution_cloud(const std::vector<Eigen::Vector3f>& points,
+                                          const CoarseRegistrationConfig& config) {
   PointGrid all(config.density_radius_m);
   all.build(points);
   DistributionCloud cloud(2.0 * config.voxel_m);
@@ -26,8 +27,8 @@ DistributionCloud make_distribution_cloud(const std::vector<Eigen::Vector3f>& po
   return cloud;
 }
 
-CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& target, const SE3& T_target_source, double noise_m,
-                     const CoarseRegistrationConfig& config) {
+CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& target, const SE3& T_target_source,
+                     double noise_m, const CoarseRegistrationConfig& config) {
   const auto& points = source.grid.points();
   const Eigen::Matrix3d R = T_target_source.linear();
   const Eigen::Matrix3d noise = noise_m * noise_m * Eigen::Matrix3d::Identity();
@@ -42,11 +43,11 @@ CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& t
       }
       const Eigen::Vector3d e = target.grid.points()[n.index].cast<double>() - p;  // e_m = q_n − p'_m
       // M_m = C_m + C_n, the source's covariance turned into the target's frame (eq. 5), and the noise floor.
-      const Eigen::Matrix3d M = R * source.covariances[m].cast<double>() * R.transpose() +
-                                target.covariances[n.index].cast<double>() + noise;
+      const Eigen::Matrix3d M =
+          R * source.covariances[m].cast<double>() * R.transpose() + target.covariances[n.index].cast<double>() + noise;
       const Eigen::Matrix3d Mi = M.inverse();
       const double w = std::exp(-e.dot(Mi * e) / (2.0 * config.sigma * config.sigma));  // (eq. 6)
-      Eigen::Matrix<double, 3, 6> J;                                                   // of p'_m = exp(δ) T p
+      Eigen::Matrix<double, 3, 6> J;                                                    // of p'_m = exp(δ) T p
       J << -hat(p), Eigen::Matrix3d::Identity();
       const Eigen::Matrix<double, 6, 3> JtW = w * J.transpose() * Mi;
       sum.H += JtW * J;  // (eq. 7)
@@ -70,8 +71,8 @@ CoarseResult coarse_registration(const DistributionCloud& source, const Distribu
   CoarseResult result;
   result.T_target_source = initial;
   for (result.iterations = 1; result.iterations <= config.max_iterations; ++result.iterations) {
-    // The weights of far pairs vanish at once when the covariances are those of surfaces alone; a noise that shrinks from
-    // iteration to iteration lets them pull first and then fall silent.
+    // The weights of far pairs vanish at once when the covariances are those of surfaces alone; a noise that shrinks
+    // from iteration to iteration lets them pull first and then fall silent.
     const double share = std::min(1.0, 2.0 * (result.iterations - 1) / std::max(1.0, config.max_iterations - 1.0));
     const double noise = config.noise_first_m * std::pow(config.noise_last_m / config.noise_first_m, share);
     const CoarseSums sums = linearise(source, target, result.T_target_source, noise, config);

@@ -49,7 +49,8 @@ bool near_one_another(const Candidate& a, const Candidate& b) {
 
 }  // namespace
 
-double map_score(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& T_odom_lidar, double sigma_m) {
+double map_score(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& T_odom_lidar,
+                 double sigma_m) {
   if (points.empty()) {
     return 0.0;
   }
@@ -78,8 +79,8 @@ std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& p
   return picked;
 }
 
-std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre, const PoseGrid& grid,
-                              double sigma_m, std::size_t keep) {
+std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre,
+                              const PoseGrid& grid, double sigma_m, std::size_t keep) {
   std::vector<Candidate> nodes = grid_nodes(grid);
   tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
     nodes[i].score = map_score(points, map, pose_of(nodes[i], centre, grid), sigma_m);

@@ -3,9 +3,7 @@
 namespace rilo {
 
 namespace {
-Matrix6d symmetric(const Matrix6d& lower) {
-  return lower.selfadjointView<Eigen::Lower>();
-}
+Matrix6d symmetric(const Matrix6d& lower) { return lower.selfadjointView<Eigen::Lower>(); }
 }  // namespace
 
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
@@ -20,9 +18,7 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   return *this;
 }
 
-Matrix6d NormalEquations::pose_hessian() const {
-  return symmetric(H0);
-}
+Matrix6d NormalEquations::pose_hessian() const { return symmetric(H0); }
 
 Matrix12d NormalEquations::hessian() const {
   Matrix12d H;

@@ -16,8 +16,8 @@ struct Neighbour {
   float distance2 = 0;
 };
 
-/// Grid over a cloud of finite points. Reading is thread-safe. Ties are broken by the smaller index, so that results do not depend
-/// on the order in which cells are visited.
+/// Grid over a cloud of finite points. Reading is thread-safe. Ties are broken by the smaller index, so that results do
+/// not depend on the order in which cells are visited.
 class PointGrid {
  public:
   explicit PointGrid(double cell_m) : cell_m_(cell_m), inverse_(1.0 / cell_m) {}
@@ -45,7 +45,8 @@ class PointGrid {
 
   const Cell* find_cell(const VoxelIndex& index) const;
 
-  /// Calls visit(point index, squared distance) for every point of the shell of cells at Chebyshev distance `ring` around `centre`.
+  /// Calls visit(point index, squared distance) for every point of the shell of cells at Chebyshev distance `ring`
+  /// around `centre`.
   template <typename Visit>
   void visit_ring(const Eigen::Vector3f& p, const VoxelIndex& centre, int ring, const Visit& visit) const;
 

@@ -44,8 +44,8 @@ class Preprocessor {
   VoxelSampler map_sampler_;
   VoxelSampler source_sampler_;
   double source_voxel_m_ = 0;  // 0: no sweep has been seen
-  // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its seam, and the
-  // reference instant must not.
+  // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its
+  // seam, and the reference instant must not.
   bool span_known_ = false;
   float span_begin_s_ = 0;
   float span_end_s_ = 0;

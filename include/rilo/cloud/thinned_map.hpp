@@ -11,7 +11,8 @@
 
 namespace rilo {
 
-/// Collects points of many sweeps and keeps the first one of every voxel. Memory grows with the area seen, not with time.
+/// Collects points of many sweeps and keeps the first one of every voxel. Memory grows with the area seen, not with
+/// time.
 class ThinnedMap {
  public:
   explicit ThinnedMap(double voxel_m) : inverse_(1.0 / voxel_m) {}

@@ -7,8 +7,8 @@
 
 namespace rilo {
 
-/// Points in the sensor frame, each at its own instant. `offsets_s` (s, relative to the pose's reference instant) is as long as
-/// `points`, or empty when the points share that instant.
+/// Points in the sensor frame, each at its own instant. `offsets_s` (s, relative to the pose's reference instant) is as
+/// long as `points`, or empty when the points share that instant.
 struct TimedCloud {
   std::vector<Eigen::Vector3f> points;
   std::vector<float> offsets_s;

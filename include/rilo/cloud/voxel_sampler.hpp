@@ -8,8 +8,8 @@
 
 namespace rilo {
 
-/// Keeps one point per voxel. The table of visited voxels is reused from call to call, so that nothing is allocated in the
-/// steady state. Points must be finite.
+/// Keeps one point per voxel. The table of visited voxels is reused from call to call, so that nothing is allocated in
+/// the steady state. Points must be finite.
 class VoxelSampler {
  public:
   /// Indices into `points` of the first point of every voxel of `voxel_m`, in the order of the points.

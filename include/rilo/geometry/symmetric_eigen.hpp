@@ -11,8 +11,8 @@ struct SymmetricEigen3 {
   Eigen::Matrix3d vectors;
 };
 
-/// Closed-form decomposition of the symmetric matrix `A` (lower triangle read). Scale-invariant: A is normalised first, so that
-/// covariances of mm² and of km² keep the same relative precision (about 1e-8 of the largest eigenvalue).
+/// Closed-form decomposition of the symmetric matrix `A` (lower triangle read). Scale-invariant: A is normalised first,
+/// so that covariances of mm² and of km² keep the same relative precision (about 1e-8 of the largest eigenvalue).
 SymmetricEigen3 symmetric_eigen(const Eigen::Matrix3d& A);
 
 }  // namespace rilo

@@ -33,7 +33,8 @@ inline std::uint64_t voxel_key(const VoxelIndex& v) {
   return pack(v.x) | (pack(v.y) << 21U) | (pack(v.z) << 42U);
 }
 
-/// Mixes a key so that neighbouring voxels spread over the table (multiplicative hashing, upper bits are the good ones).
+/// Mixes a key so that neighbouring voxels spread over the table (multiplicative hashing, upper bits are the good
+/// ones).
 inline std::uint64_t mix_key(std::uint64_t key) {
   key ^= key >> 32U;
   key *= 0x9E3779B97F4A7C15ULL;

@@ -16,8 +16,8 @@ class LocalMap {
  public:
   explicit LocalMap(const LocalMapConfig& config);
 
-  /// Tells the map how large the place is (typical range of a point, m): small rooms need small voxels, and in the open small voxels
-  /// hold too few points of too few beams. Sets the finest level that insert and find work on from now on.
+  /// Tells the map how large the place is (typical range of a point, m): small rooms need small voxels, and in the open
+  /// small voxels hold too few points of too few beams. Sets the finest level that insert and find work on from now on.
   void set_scene_range(double range_m);
 
   /// Adds points of the sensor frame at the pose `T_odom_lidar`, then fits the planes that changed.

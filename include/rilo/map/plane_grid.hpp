@@ -25,8 +25,8 @@ struct MapPlane {
   float thickness_m = 0;   ///< standard deviation along the normal
 };
 
-/// Voxels in a flat open-addressing hash; the voxels themselves lie in a pool. A voxel's plane is fitted on insertion, when the
-/// number of its points has grown by half since the last fit, so that a look-up only reads.
+/// Voxels in a flat open-addressing hash; the voxels themselves lie in a pool. A voxel's plane is fitted on insertion,
+/// when the number of its points has grown by half since the last fit, so that a look-up only reads.
 class PlaneGrid {
  public:
   PlaneGrid(double voxel_m, const PlaneCriteria& criteria);
@@ -36,14 +36,15 @@ class PlaneGrid {
   /// Fits the planes of the voxels touched since the last call.
   void refit();
 
-  /// Plane of the voxel that holds `p`, or, where that has none, of the voxel behind the nearest face: a wall on the boundary of two
-  /// voxels scatters over both. False when neither has one.
+  /// Plane of the voxel that holds `p`, or, where that has none, of the voxel behind the nearest face: a wall on the
+  /// boundary of two voxels scatters over both. False when neither has one.
   bool find(const Eigen::Vector3d& p, MapPlane& plane) const;
 
   /// Whether the voxel that holds `p` has points.
   bool occupied(const Eigen::Vector3d& p) const;
 
-  /// Examines a slice of the voxels and drops those farther than `radius_m` from `centre`. A full round takes kEvictionRounds calls.
+  /// Examines a slice of the voxels and drops those farther than `radius_m` from `centre`. A full round takes
+  /// kEvictionRounds calls.
   void evict(const Eigen::Vector3d& centre, double radius_m);
 
   std::size_t size() const { return used_; }

@@ -1,4 +1,5 @@
-// Reliable initial pose: coarse registration when it is worth it (III-A), and the choice against the prediction (III-B).
+// Reliable initial pose: coarse registration when it is worth it (III-A), and the choice against the prediction
+// (III-B).
 #pragma once
 
 #include <vector>
@@ -33,20 +34,22 @@ struct ScoredPose {
 };
 
 /// The rule of III-B: chooses between prediction and coarse result, both in the odometry frame.
-InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse, const InitialPoseConfig& config);
+InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse,
+                                const InitialPoseConfig& config);
 
 /// The stage: knows the usual score and the last sweep's cloud.
 class InitialPoseStage {
  public:
-  InitialPoseStage(const InitialPoseConfig& config, const CoarseRegistrationConfig& coarse) : config_(config), coarse_(coarse) {}
+  InitialPoseStage(const InitialPoseConfig& config, const CoarseRegistrationConfig& coarse)
+      : config_(config), coarse_(coarse) {}
 
   /// Chooses the initial pose of `source`.
   /// @param predicted T_pred and the velocity during the sweep.
   /// @param previous T_{i−1}.
   /// @param dt_s time since `previous`.
   /// @param in_doubt the prediction must not be trusted whatever its score (start, after a loss).
-  InitialPose choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous, double dt_s, const LocalMap& map,
-                     bool in_doubt);
+  InitialPose choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous, double dt_s,
+                     const LocalMap& map, bool in_doubt);
 
   /// Map score of a registered sweep; the cloud becomes the next target.
   double score(const TimedCloud& source, const MotionState& state, const LocalMap& map);
@@ -65,7 +68,8 @@ class InitialPoseStage {
   DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points);
   /// Whether a score is not far below the usual one.
   bool explains(double score) const;
-  /// Further starts for the coarse stage: the best poses of a search around the last one, on the sweep as compensated last.
+  /// Further starts for the coarse stage: the best poses of a search around the last one, on the sweep as compensated
+  /// last.
   std::vector<SE3> restarts(const SE3& previous, const LocalMap& map) const;
 
   InitialPoseConfig config_;

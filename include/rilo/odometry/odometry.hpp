@@ -15,8 +15,8 @@
 
 namespace rilo {
 
-/// The pipeline of the paper, one call per sweep. Not thread-safe: one thread calls it; inside it uses `threads` threads
-/// and gives the same bits for any number of them.
+/// The pipeline of the paper, one call per sweep. Not thread-safe: one thread calls it; inside it uses `threads`
+/// threads and gives the same bits for any number of them.
 class Odometry {
  public:
   /// Monotonic time in ns for the stage times in the statistics. The core itself reads no clock.
@@ -28,8 +28,8 @@ class Odometry {
   Odometry(Odometry&&) noexcept;
   Odometry& operator=(Odometry&&) noexcept;
 
-  /// Registers one sweep. Stamps must increase; a sweep whose stamp does not is registered as if one usual period had passed.
-  /// Never throws on bad data: the status in the result says what happened.
+  /// Registers one sweep. Stamps must increase; a sweep whose stamp does not is registered as if one usual period had
+  /// passed. Never throws on bad data: the status in the result says what happened.
   SweepResult register_sweep(const Sweep& sweep);
 
   /// Poses so far, one per registered sweep.

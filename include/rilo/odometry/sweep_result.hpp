@@ -37,14 +37,14 @@ std::string_view to_string(PoseInstant instant);
 
 /// Why the initial pose was taken (III-B).
 enum class InitialPoseReason : std::uint8_t {
-  kFirstSweep,         ///< nothing to predict from
-  kCoarseDisabled,     ///< only the prediction exists
-  kCoarseNotNeeded,    ///< the prediction already explains the sweep: the coarse stage was not run
-  kCoarseFailed,       ///< the coarse stage did not converge
-  kWithinTau,          ///< |t(T_pred^-1 T_align)| <= tau: coarse result taken (the paper's rule)
-  kBeyondTau,          ///< farther than tau: prediction taken (the paper's rule)
-  kBetterMapScore,     ///< the coarse result explains the local map better
-  kWorseMapScore,      ///< the prediction explains the local map better
+  kFirstSweep,       ///< nothing to predict from
+  kCoarseDisabled,   ///< only the prediction exists
+  kCoarseNotNeeded,  ///< the prediction already explains the sweep: the coarse stage was not run
+  kCoarseFailed,     ///< the coarse stage did not converge
+  kWithinTau,        ///< |t(T_pred^-1 T_align)| <= tau: coarse result taken (the paper's rule)
+  kBeyondTau,        ///< farther than tau: prediction taken (the paper's rule)
+  kBetterMapScore,   ///< the coarse result explains the local map better
+  kWorseMapScore,    ///< the prediction explains the local map better
 };
 std::string_view to_string(InitialPoseReason reason);
 
@@ -59,36 +59,36 @@ struct StageTimes {
 
 /// Statistics of one sweep; one line of sweeps.csv.
 struct SweepStats {
-  std::size_t points_in = 0;        ///< as given
-  std::size_t points_valid = 0;     ///< finite and within range
-  std::size_t points_map = 0;       ///< after downsampling, for the map
-  std::size_t points_source = 0;    ///< source cloud S of the fine registration
-  std::size_t map_voxels = 0;       ///< after the update
+  std::size_t points_in = 0;      ///< as given
+  std::size_t points_valid = 0;   ///< finite and within range
+  std::size_t points_map = 0;     ///< after downsampling, for the map
+  std::size_t points_source = 0;  ///< source cloud S of the fine registration
+  std::size_t map_voxels = 0;     ///< after the update
   InitialPoseSource initial_pose = InitialPoseSource::kIdentity;
   InitialPoseReason initial_pose_reason = InitialPoseReason::kFirstSweep;
   bool coarse_ran = false;
   int coarse_iterations = 0;
-  double pred_align_distance_m = 0; ///< Δt_i (III-B)
-  double prediction_score = 0;      ///< map score of the prediction, 0 … 1
-  double map_score = 0;             ///< map score of the result, 0 … 1
-  int iterations = 0;               ///< fine registration (III-D)
+  double pred_align_distance_m = 0;  ///< Δt_i (III-B)
+  double prediction_score = 0;       ///< map score of the prediction, 0 … 1
+  double map_score = 0;              ///< map score of the result, 0 … 1
+  int iterations = 0;                ///< fine registration (III-D)
   bool converged = false;
-  std::size_t inliers = 0;          ///< correspondences of the last iteration
-  double inlier_ratio = 0;          ///< inliers / points_source
-  double residual_rms_m = 0;        ///< weighted point-to-plane residual
-  double sigma_th_m = 0;            ///< threshold used for this sweep (III-C)
-  double gamma = 1;                 ///< γ_i, steadiness of the motion (III-C)
-  double deviation_m = 0;           ///< e_i, model deviation (III-C)
+  std::size_t inliers = 0;                       ///< correspondences of the last iteration
+  double inlier_ratio = 0;                       ///< inliers / points_source
+  double residual_rms_m = 0;                     ///< weighted point-to-plane residual
+  double sigma_th_m = 0;                         ///< threshold used for this sweep (III-C)
+  double gamma = 1;                              ///< γ_i, steadiness of the motion (III-C)
+  double deviation_m = 0;                        ///< e_i, model deviation (III-C)
   std::array<double, 6> relative_eigenvalues{};  ///< of the information matrix, ascending, largest = 1
   StageTimes times;
 };
 
 /// Result of one sweep.
 struct SweepResult {
-  std::int64_t stamp_ns = 0;                     ///< instant of the pose
+  std::int64_t stamp_ns = 0;  ///< instant of the pose
   SE3 T_odom_lidar = SE3::Identity();
-  Vector6d twist = Vector6d::Zero();             ///< body velocity during the sweep [rad/s; m/s]
-  Matrix6d covariance = Matrix6d::Zero();        ///< of the pose, right perturbation, [rad; m]
+  Vector6d twist = Vector6d::Zero();       ///< body velocity during the sweep [rad/s; m/s]
+  Matrix6d covariance = Matrix6d::Zero();  ///< of the pose, right perturbation, [rad; m]
   OdometryStatus status = OdometryStatus::kInitialising;
   SweepStats stats;
 };

@@ -19,8 +19,8 @@ struct MotionState {
   Vector6d twist = Vector6d::Zero();  ///< body velocity [rad/s; m/s]
 };
 
-/// What is known of the state before the sweep is looked at. Perturbations: rotation and translation of the sensor about its own
-/// origin along the axes of the odometry frame, then their rates.
+/// What is known of the state before the sweep is looked at. Perturbations: rotation and translation of the sensor
+/// about its own origin along the axes of the odometry frame, then their rates.
 struct MotionPrior {
   MotionState state;
   Matrix12d information = Matrix12d::Zero();  ///< zero: nothing is known
@@ -38,8 +38,8 @@ struct IcpResult {
   PoseDegeneracy degeneracy;
 };
 
-/// Residuals and Jacobians of `source` against the planes of `map` at `state`, with the Cauchy weight of σ_th (eq. β_k), summed.
-/// The pose is perturbed as described at MotionPrior. Only every `stride`-th point is looked at.
+/// Residuals and Jacobians of `source` against the planes of `map` at `state`, with the Cauchy weight of σ_th (eq.
+/// β_k), summed. The pose is perturbed as described at MotionPrior. Only every `stride`-th point is looked at.
 NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
                           const AdaptiveIcpConfig& config, std::size_t stride = 1);
 
@@ -47,7 +47,7 @@ NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const M
 MotionState perturbed(const MotionState& state, const Vector12d& delta);
 
 /// Aligns `source` with `map` from `initial`, weights from `sigma_th_m`.
-IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial, const MotionPrior& prior,
-                       double sigma_th_m, const AdaptiveIcpConfig& config);
+IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial,
+                       const MotionPrior& prior, double sigma_th_m, const AdaptiveIcpConfig& config);
 
 }  // namespace rilo

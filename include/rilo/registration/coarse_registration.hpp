@@ -21,7 +21,8 @@ struct DistributionCloud {
 };
 
 /// Density filter and covariances of `points` (sensor frame).
-DistributionCloud make_distribution_cloud(const std::vector<Eigen::Vector3f>& points, const CoarseRegistrationConfig& config);
+DistributionCloud make_distribution_cloud(const std::vector<Eigen::Vector3f>& points,
+                                          const CoarseRegistrationConfig& config);
 
 struct CoarseResult {
   SE3 T_target_source = SE3::Identity();  ///< T_align
@@ -31,16 +32,16 @@ struct CoarseResult {
   double mean_weight = 0;  ///< mean w_m over the source: 1 is a perfect fit
 };
 
-/// Sums of eq. 7 and 8 at `T`, with `noise_m` added to the covariances. The error is q − T p and its perturbation is a left one,
-/// exp(δ) T, in the target's frame, which is the sensor's own of the sweep before: levers stay short.
+/// Sums of eq. 7 and 8 at `T`, with `noise_m` added to the covariances. The error is q − T p and its perturbation is a
+/// left one, exp(δ) T, in the target's frame, which is the sensor's own of the sweep before: levers stay short.
 struct CoarseSums {
   Matrix6d H = Matrix6d::Zero();
   Vector6d b = Vector6d::Zero();
   double weight = 0;
   std::size_t pairs = 0;
 };
-CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& target, const SE3& T_target_source, double noise_m,
-                     const CoarseRegistrationConfig& config);
+CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& target, const SE3& T_target_source,
+                     double noise_m, const CoarseRegistrationConfig& config);
 
 /// Algorithm 1 from `initial`.
 CoarseResult coarse_registration(const DistributionCloud& source, const DistributionCloud& target, const SE3& initial,

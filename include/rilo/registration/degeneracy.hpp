@@ -5,16 +5,18 @@
 
 namespace rilo {
 
-/// Eigen-decomposition of a pose's information with rotations measured in metres at a lever: relative eigenvalues transfer between
-/// sensors and places where absolute ones do not.
+/// Eigen-decomposition of a pose's information with rotations measured in metres at a lever: relative eigenvalues
+/// transfer between sensors and places where absolute ones do not.
 struct PoseDegeneracy {
-  Vector6d relative_eigenvalues = Vector6d::Zero();  ///< ascending, the largest is 1; all zero when there is no information
-  Matrix6d directions = Matrix6d::Identity();        ///< column i: unit direction of eigenvalue i, [rotation · lever; translation]
+  Vector6d relative_eigenvalues =
+      Vector6d::Zero();  ///< ascending, the largest is 1; all zero when there is no information
+  Matrix6d directions =
+      Matrix6d::Identity();  ///< column i: unit direction of eigenvalue i, [rotation · lever; translation]
   double lever_m = 1.0;
 };
 
-/// `H`: information (or Hessian) of [rotation; translation] about the sensor; the lever is chosen such that mean rotation and mean
-/// translation weigh the same.
+/// `H`: information (or Hessian) of [rotation; translation] about the sensor; the lever is chosen such that mean
+/// rotation and mean translation weigh the same.
 PoseDegeneracy analyse_degeneracy(const Matrix6d& H);
 
 /// Matrix W (6×6; Hessian Wᵀ H W, gradient Wᵀ b) that fades out the directions whose relative eigenvalue

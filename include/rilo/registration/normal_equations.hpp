@@ -12,8 +12,9 @@ namespace rilo {
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 
-/// Sums of weighted residuals e with Jacobian [J, s J], s the offset (s) of the point from the pose's instant: the second block is
-/// the velocity. The three blocks of the Hessian share the products J Jᵀ, so that a velocity costs little more than none.
+/// Sums of weighted residuals e with Jacobian [J, s J], s the offset (s) of the point from the pose's instant: the
+/// second block is the velocity. The three blocks of the Hessian share the products J Jᵀ, so that a velocity costs
+/// little more than none.
 struct NormalEquations {
   Matrix6d H0 = Matrix6d::Zero();  ///< Σ w J Jᵀ, lower triangle
   Matrix6d H1 = Matrix6d::Zero();  ///< Σ w s J Jᵀ

@@ -23,7 +23,7 @@ Vector6d predict_velocity(const Trajectory& past, double sigma_th_m, const Motio
   if (!config.enabled || n < 2) {
     return Vector6d::Zero();
   }
-  const Vector6d recent = velocity(past[n - 2], past[n - 1]);
+  Vector6d recent = velocity(past[n - 2], past[n - 1]);
   if (n == 2) {
     return recent;
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
+#include "cloud/fixed_chunks.hpp"
 
 namespace rilo {
 
@@ -82,7 +82,7 @@ std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& p
 std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre,
                               const PoseGrid& grid, double sigma_m, std::size_t keep) {
   std::vector<Candidate> nodes = grid_nodes(grid);
-  tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+  for_each_index(nodes.size(), [&](std::size_t i) {
     nodes[i].score = map_score(points, map, pose_of(nodes[i], centre, grid), sigma_m);
   });
   const auto distance2 = [](const Candidate& c) { return c.yaw * c.yaw + c.x * c.x + c.y * c.y; };

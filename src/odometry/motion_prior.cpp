@@ -1,5 +1,7 @@
 #include "rilo/odometry/motion_prior.hpp"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 
 namespace rilo {
@@ -9,6 +11,7 @@ namespace {
 constexpr double kUnitTimeS = 0.1;
 constexpr double kUnknownTurnRate = 1.0;  // rad/s
 constexpr double kUnknownSpeed = 20.0;    // m/s
+constexpr double kTurnMemoryS = 1.0;
 }  // namespace
 
 Matrix6d unknown_velocity_covariance() {
@@ -16,6 +19,13 @@ Matrix6d unknown_velocity_covariance() {
   variance.head<3>().setConstant(kUnknownTurnRate * kUnknownTurnRate);
   variance.tail<3>().setConstant(kUnknownSpeed * kUnknownSpeed);
   return variance.asDiagonal();
+}
+
+MotionState expected_motion(const MotionState& last, double dt_s) {
+  MotionState next = last;
+  next.twist.head<3>() *= std::exp(-dt_s / kTurnMemoryS);
+  next.T_odom_lidar = last.T_odom_lidar * se3_exp(dt_s * next.twist);
+  return next;
 }
 
 MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s,

@@ -170,8 +170,7 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
 IcpResult Odometry::Impl::fine_registration(const PreparedSweep& prepared, const MotionState& predicted,
                                             const InitialPose& init, double dt_s, double sigma_th_m) {
   MotionState initial = predicted;
-  MotionState expected = state_;
-  expected.T_odom_lidar = state_.T_odom_lidar * se3_exp(dt_s * state_.twist);
+  MotionState expected = expected_motion(state_, dt_s);
   Matrix6d covariance = velocity_covariance_;
   if (init.source == InitialPoseSource::kCoarse) {
     // The sweep has just refuted the prediction: start from the coarse result, with the velocity that it implies.

@@ -16,4 +16,8 @@ Matrix6d unknown_velocity_covariance();
 MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s,
                          const MotionPriorConfig& config);
 
+/// Mean of the prior: `last` moved on by `dt_s`. Speed is kept; the turn rate fades within about a second, since
+/// vehicles end their turns, and a turn rate that nothing observes (an open field) would run away.
+MotionState expected_motion(const MotionState& last, double dt_s);
+
 }  // namespace rilo

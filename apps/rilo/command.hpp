@@ -11,12 +11,11 @@ namespace rilo::cli {
 /// Exit codes; `rilo --help` and docs/command.md list them.
 enum ExitCode : int {
   kSuccess = 0,
-  kUnexpected = 1,     ///< a bug or an exhausted machine
-  kUsage = 2,          ///< command line or configuration
-  kBadData = 3,        ///< data missing, malformed or of no known format
-  kCannotWrite = 4,    ///< results could not be written
-  kInterrupted = 130,  ///< SIGINT; what was done is written
-  kTerminated = 143,   ///< SIGTERM; what was done is written
+  kUnexpected = 1,    ///< a bug or an exhausted machine
+  kUsage = 2,         ///< command line or configuration
+  kBadData = 3,       ///< data missing, malformed or of no known format
+  kCannotWrite = 4,   ///< results could not be written
+  kSignalBase = 128,  ///< + the signal's number: 130 SIGINT, 143 SIGTERM; what was done is written
 };
 
 /// An error whose exit code is known. Everything else is mapped in main.cpp.
@@ -30,8 +29,8 @@ class CommandError : public std::runtime_error {
 };
 
 // Each subcommand adds itself to `app`; when it is chosen, its callback runs it and sets `exit_code`. Errors are
-// exceptions.
-void add_run_command(CLI::App& app, int& exit_code);
+// exceptions. `command_line` goes into the results.
+void add_run_command(CLI::App& app, const std::string& command_line, int& exit_code);
 void add_eval_command(CLI::App& app, int& exit_code);
 void add_simulate_command(CLI::App& app, int& exit_code);
 void add_config_command(CLI::App& app, int& exit_code);

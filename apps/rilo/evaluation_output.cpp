@@ -24,7 +24,6 @@ std::string row(const char* name, const ErrorSummary& s, const char* unit) {
 }  // namespace
 
 nlohmann::json evaluation_json(const Evaluation& e) {
-  // One sequence is its own mean: pooled and per-sequence averages differ once several are put together.
   return {{"poses", e.poses},
           {"path_m", e.path_m},
           {"t_rel_pct", number(e.kitti.t_rel_pct())},
@@ -66,6 +65,23 @@ std::string evaluation_table(const Evaluation& e) {
   text += row("RPE per metre, rotation", e.rpe_metre.rotation_deg, "deg/m");
   text += fmt::format("{:<34} {:.4f} m ({:.4f} % of the path)\n", "End point", e.end_error_m, e.end_error_pct);
   return text;
+}
+
+nlohmann::json benchmark_json(const KittiBenchmark& b) {
+  return {
+      {"pooled", {{"t_rel_pct", number(b.pooled_t_rel_pct)}, {"r_rel_deg_per_100m", number(b.pooled_r_rel_deg_100m)}}},
+      {"sequence_mean",
+       {{"t_rel_pct", number(b.sequence_mean_t_rel_pct)},
+        {"r_rel_deg_per_100m", number(b.sequence_mean_r_rel_deg_100m)}}}};
+}
+
+std::string benchmark_table(const KittiBenchmark& b, std::size_t sequences) {
+  if (!b.pooled_t_rel_pct || !b.pooled_r_rel_deg_100m) return "";
+  return fmt::format(
+      "{} sequence{}: t_rel {:.4f} %   r_rel {:.4f} deg/100m   pooled over all segments (KITTI devkit)\n"
+      "{:>12} t_rel {:.4f} %   r_rel {:.4f} deg/100m   mean of the sequences' means (most papers)\n",
+      sequences, sequences == 1 ? "" : "s", *b.pooled_t_rel_pct, *b.pooled_r_rel_deg_100m, "",
+      b.sequence_mean_t_rel_pct.value_or(0), b.sequence_mean_r_rel_deg_100m.value_or(0));
 }
 
 }  // namespace rilo::cli

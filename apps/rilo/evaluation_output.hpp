@@ -1,6 +1,7 @@
-// Errors against ground truth, as JSON and as text.
+// Errors of a trajectory, for people and for scripts.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -9,10 +10,11 @@
 
 namespace rilo::cli {
 
-/// Figures of one sequence; units in the names.
 nlohmann::json evaluation_json(const Evaluation& evaluation);
-
-/// A small table with the protocol of each figure.
 std::string evaluation_table(const Evaluation& evaluation);
+
+/// The two averages over sequences that the field prints.
+nlohmann::json benchmark_json(const KittiBenchmark& benchmark);
+std::string benchmark_table(const KittiBenchmark& benchmark, std::size_t sequences);
 
 }  // namespace rilo::cli

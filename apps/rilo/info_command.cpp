@@ -11,6 +11,7 @@
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "source_flags.hpp"
+#include "text.hpp"
 
 namespace rilo::cli {
 
@@ -18,7 +19,7 @@ namespace {
 
 struct InfoFlags {
   std::string data;
-  SourceOptions source;
+  SourceFlags source;
   bool json = false;
   bool all = false;
 };
@@ -124,7 +125,7 @@ nlohmann::json truth_json(const std::string& data) {
 }
 
 nlohmann::json describe(const InfoFlags& flags) {
-  const auto source = open_scan_source(flags.data, flags.source);
+  const auto source = open_scan_source(flags.data, flags.source.options);
   const Survey survey = survey_of(*source, flags.all);
   const SourceInfo info = source->info();
   const bool complete = survey.read == survey.sweeps;
@@ -210,7 +211,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   add_source_flags(*command, flags->source);
   command->callback([flags, &exit_code] {
     const nlohmann::json json = describe(*flags);
-    std::cout << (flags->json ? json.dump(2) + "\n" : as_text(json));
+    std::cout << (flags->json ? json_text(json) : as_text(json));
     exit_code = kSuccess;
   });
 }

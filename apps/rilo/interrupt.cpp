@@ -25,11 +25,14 @@ InterruptGuard::InterruptGuard() {
   received = 0;
   install(SIGINT);
   install(SIGTERM);
+  // A reader of our messages that goes away (`| head`) must not take the results with it.
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGPIPE, SIG_DFL);
 }
 
 int InterruptGuard::signal() { return received; }

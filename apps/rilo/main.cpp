@@ -8,6 +8,7 @@
 #include "command.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
+#include "text.hpp"
 #include "version.hpp"
 
 namespace {
@@ -35,19 +36,20 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("rilo ") + cli::kVersion);
   app.require_subcommand(1);
   app.footer(kFooter);
-  cli::add_run_command(app, exit_code);
+  cli::add_run_command(app, cli::command_line(argc, argv), exit_code);
   cli::add_eval_command(app, exit_code);
   cli::add_simulate_command(app, exit_code);
   cli::add_config_command(app, exit_code);
   cli::add_info_command(app, exit_code);
   try {
     app.parse(argc, argv);
-    return exit_code;
+    std::cout.flush();
+    return std::cout ? exit_code : fail(cli::kCannotWrite, "standard output: cannot be written");
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {
-      return app.exit(error);  // --help, --version
-    }
-    return fail(cli::kUsage, std::string(error.what()) + ". Try: rilo --help");
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    const auto chosen = app.get_subcommands();
+    const std::string help = chosen.empty() ? "rilo --help" : "rilo " + chosen.front()->get_name() + " --help";
+    return fail(cli::kUsage, std::string(error.what()) + ". See: " + help);
   } catch (const cli::CommandError& error) {
     return fail(error.code(), error.what());
   } catch (const ConfigError& error) {

@@ -52,6 +52,12 @@ std::string Progress::line(std::size_t done, const std::string& note) const {
   return fmt::format("{} [{}] {}/{}  {:.1f}/s  {:.0f} s left  {}", what_, bar, done, *total_, rate, left, note);
 }
 
+void Progress::say(const std::string& text) {
+  if (quiet_) return;
+  fmt::print(stderr, "{}{}\n", terminal_ ? "\r\033[K" : "", text);
+  std::fflush(stderr);
+}
+
 void Progress::finish() {
   if (open_line_) {
     fmt::print(stderr, "\n");

@@ -2,14 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sys/resource.h>
 
 #include <fmt/format.h>
 
 #include "evaluation_output.hpp"
-#include "rilo/io/ground_truth.hpp"
-#include "rilo/io/io_error.hpp"
 #include "run_record.hpp"
+#include "text.hpp"
 #include "version.hpp"
 
 namespace rilo::cli {
@@ -58,28 +56,29 @@ nlohmann::json stage_means(const RunRecord& run) {
           {"map", sum.map_ms / n}};
 }
 
-double peak_rss_mb() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
 nlohmann::json counts(const RunRecord& run) {
   std::map<std::string, std::size_t> status;
   std::map<std::string, std::size_t> initial;
+  std::map<std::string, std::size_t> reasons;
   std::size_t coarse_runs = 0;
   double iterations = 0;
+  // All of them, those that never occurred too: scripts need not ask whether a name is there.
+  for (const auto source : {InitialPoseSource::kIdentity, InitialPoseSource::kPrediction, InitialPoseSource::kCoarse}) {
+    initial[std::string(to_string(source))] = 0;
+  }
   for (std::size_t i = 0; i < kStatusCount; ++i) {
     status[std::string(to_string(static_cast<OdometryStatus>(i)))] = 0;
   }
   for (const SweepResult& result : run.results) {
     ++status[std::string(to_string(result.status))];
     ++initial[std::string(to_string(result.stats.initial_pose))];
+    ++reasons[std::string(to_string(result.stats.initial_pose_reason))];
     coarse_runs += result.stats.coarse_ran ? 1 : 0;
     iterations += result.stats.iterations;
   }
   return {{"status", status},
           {"initial_pose", initial},
+          {"initial_pose_reasons", reasons},
           {"coarse_runs", coarse_runs},
           {"mean_iterations", iterations / std::max<double>(1.0, static_cast<double>(run.results.size()))}};
 }
@@ -90,15 +89,15 @@ nlohmann::json run_metrics(const RunRecord& run) {
   nlohmann::json metrics = {
       {"rilo_version", kVersion},
       {"command", run.command_line},
-      {"data", run.data.string()},
+      {"data", valid_utf8(run.data.string())},
       {"format", run.source.kind + ", " + run.source.format},
       {"frames", run.results.size()},
       {"interrupted", run.signal != 0},
       {"ms", timing(run)},
-      {"ms_note", "deskew to map update, reading excluded, no sweep left out"},
+      {"ms_note", "all stages, deskew to map update; reading excluded; every sweep counts, the first ones too"},
       {"stage_mean_ms", stage_means(run)},
       {"wall_s", run.wall_s},
-      {"peak_rss_mb", peak_rss_mb()},
+      {"peak_rss_mb", run.peak_rss_mb},
       {"threads", run.threads},
       {"pose_instant", to_string(run.pose_instant)},
       {"point_times", run.source.point_times},
@@ -111,6 +110,7 @@ nlohmann::json run_metrics(const RunRecord& run) {
   if (!run.error.empty()) {
     metrics["error"] = run.error;
   }
+  if (!run.truth_error.empty()) metrics["truth_error"] = run.truth_error;
   if (run.evaluation) {
     metrics["evaluation"] = evaluation_json(*run.evaluation);
     metrics["evaluation"]["truth"] = run.truth->file;
@@ -143,9 +143,6 @@ std::string run_summary(const nlohmann::json& m) {
   text += fmt::format("\nposes at        {} of the sweep; point times: {}; elevation correction {} deg\n",
                       m["pose_instant"].get<std::string>(), m["point_times"].get<std::string>(),
                       m["elevation_correction_deg"].get<double>());
-  for (const auto& warning : m["warnings"]) {
-    text += "warning         " + warning.get<std::string>() + "\n";
-  }
   if (m.contains("evaluation")) {
     const auto& e = m["evaluation"];
     text += fmt::format("against truth   APE {:.4f} m aligned, {:.4f} m unaligned; path {:.1f} m",
@@ -158,35 +155,6 @@ std::string run_summary(const nlohmann::json& m) {
     text += "\n";
   }
   return text;
-}
-
-void evaluate_run(RunRecord& run) {
-  std::optional<GroundTruth> truth;
-  try {
-    const TruthInstant instant = run.pose_instant == PoseInstant::kStart ? TruthInstant::kStart
-                                 : run.pose_instant == PoseInstant::kEnd ? TruthInstant::kEnd
-                                                                         : TruthInstant::kMid;
-    truth = read_ground_truth(run.data, instant);
-  } catch (const IoError& error) {
-    run.source.warnings.push_back(std::string("ground truth left out: ") + error.what());
-  }
-  if (!truth) {
-    return;
-  }
-  TruthMatch match;
-  match.file = truth->file.string();
-  match.instant = truth->instant;
-  for (std::size_t i = 0; i < run.results.size(); ++i) {
-    if (run.indices[i] < truth->T_world_lidar.size()) {
-      match.truth.push_back(truth->T_world_lidar[run.indices[i]]);
-      match.estimate.push_back(run.results[i].T_odom_lidar);
-    }
-  }
-  run.source.warnings.insert(run.source.warnings.end(), truth->warnings.begin(), truth->warnings.end());
-  if (match.truth.size() >= 2) {
-    run.evaluation = evaluate(match.truth, match.estimate);
-  }
-  run.truth = std::move(match);
 }
 
 }  // namespace rilo::cli

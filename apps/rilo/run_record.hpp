@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "command.hpp"
 #include "rilo/evaluation/evaluation.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "rilo/odometry/odometry_config.hpp"
@@ -23,7 +24,6 @@ struct TruthMatch {
   std::vector<SE3> estimate;  ///< the poses of the same sweeps
   std::string file;
   std::string instant;  ///< what the true poses refer to
-  std::vector<std::string> warnings;
 };
 
 struct RunRecord {
@@ -37,27 +37,23 @@ struct RunRecord {
   PoseInstant pose_instant = PoseInstant::kMid;
   std::vector<Eigen::Vector3f> map;  ///< thinned points of all registered sweeps, odometry frame
   double wall_s = 0;
-  int signal = 0;     ///< that ended the run early, 0: none
-  std::string error;  ///< that ended the run early
+  double peak_rss_mb = 0;          ///< up to the last sweep
+  int signal = 0;                  ///< that ended the run early, 0: none
+  std::string error;               ///< that ended the run early, empty: none
+  ExitCode error_code = kSuccess;  ///< of that error
   std::optional<TruthMatch> truth;
+  std::string truth_error;  ///< why ground truth that lies there could not be used
   std::optional<Evaluation> evaluation;
 };
+
+/// Looks for ground truth beside the data and evaluates. Truth that cannot be read is said in truth_error and does not
+/// spoil the run.
+void evaluate_run(RunRecord& run);
 
 /// metrics.json.
 nlohmann::json run_metrics(const RunRecord& run);
 
 /// The few lines that a person reads at the end.
 std::string run_summary(const nlohmann::json& metrics);
-
-/// Looks for ground truth beside the data and evaluates; a truth file that cannot be read becomes a warning of the
-/// source, since the run itself is good.
-void evaluate_run(RunRecord& run);
-
-/// Throws CommandError(kCannotWrite) unless results can be written into `folder`, which is created.
-void prepare_output(const std::filesystem::path& folder);
-
-/// Writes all result files into `folder`, each whole or not at all.
-void write_outputs(const RunRecord& run, const nlohmann::json& metrics, const std::filesystem::path& folder,
-                   bool with_report);
 
 }  // namespace rilo::cli

@@ -41,7 +41,7 @@ int simulate(const SimulateFlags& flags) {
     std::cout << fmt::format("{} sweeps, {} points, {:.1f} m: {}\n", summary.sweeps, summary.points, summary.path_m,
                              flags.out);
   }
-  return InterruptGuard::signal() == 0 ? kSuccess : 128 + InterruptGuard::signal();
+  return InterruptGuard::signal() == 0 ? kSuccess : kSignalBase + InterruptGuard::signal();
 }
 
 }  // namespace
@@ -66,7 +66,11 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   command->add_option("--dropout", drive.dropout, "share of returns that are lost")->capture_default_str();
   command->add_option("--elevation-bias", drive.elevation_bias_deg, "degrees, true less reported elevation")
       ->capture_default_str();
+  command->add_option("--max-range", drive.max_range_m, "m; 0: the sensor's own")->capture_default_str();
   command->add_option("--moving-cars", drive.moving_cars, "0 … 12")->capture_default_str();
+  command->add_option("--parked-cars", drive.parked_cars, "share of the parking places that are taken")
+      ->capture_default_str();
+  command->add_option("--trees", drive.trees, "share of the places for trees that have one")->capture_default_str();
   command->add_option("--threads", drive.threads, "0: as many as the machine has")->capture_default_str();
   command->add_flag("--deskewed", drive.deskewed, "points referred to the middle of the sweep, without times");
   command->add_flag("--quiet", flags->quiet, "no progress and no summary");

@@ -26,9 +26,7 @@ std::string real_text(double value) {
   return text;
 }
 
-std::string list_of(const std::vector<std::string>& words) {
-  return fmt::format("{}", fmt::join(words, " or "));
-}
+std::string list_of(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " or ")); }
 
 // One overload a type of key; see ConfigKey's functions of the same names.
 struct Value {

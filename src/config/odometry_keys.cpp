@@ -10,7 +10,8 @@ void add_preprocess(ConfigKeys& keys, PreprocessConfig& c) {
   keys.real("min_range_m", c.min_range_m, 0, 1000, "m", "nearer points are dropped (the vehicle itself)");
   keys.real("max_range_m", c.max_range_m, 1, 1000, "m", "farther points are dropped; at least min_range_m");
   keys.boolean("deskew", c.deskew, "use per-point times when the sweep has them");
-  keys.integer("source_points", c.source_points, 100, 1000000, "", "aim for the size of the source cloud; its voxel adapts");
+  keys.integer("source_points", c.source_points, 100, 1000000, "",
+               "aim for the size of the source cloud; its voxel adapts");
   keys.real("min_voxel_m", c.min_voxel_m, 0.01, 10, "m", "least voxel of the source cloud");
   keys.real("max_voxel_m", c.max_voxel_m, 0.01, 10, "m", "largest voxel of the source cloud; at least min_voxel_m");
   keys.real("map_voxel_ratio", c.map_voxel_ratio, 0.1, 1, "", "voxel of the cloud for the map, in source voxels");
@@ -28,19 +29,23 @@ void add_coarse(ConfigKeys& keys, CoarseRegistrationConfig& c) {
   keys.real("damping", c.damping, 0, 1000, "", "lambda (eq. 9), relative to the largest diagonal element");
   keys.integer("max_iterations", c.max_iterations, 1, 1000, "", "iterations from one start");
   keys.real("max_correspondence_m", c.max_correspondence_m, 0.01, 100, "m", "farther pairs are not valid");
-  keys.real("noise_first_m", c.noise_first_m, 0.001, 10, "m", "standard deviation added to the covariances at first ...");
+  keys.real("noise_first_m", c.noise_first_m, 0.001, 10, "m",
+            "standard deviation added to the covariances at first ...");
   keys.real("noise_last_m", c.noise_last_m, 0.001, 10, "m", "... and in the last iteration");
 }
 
 void add_prediction(ConfigKeys& keys, MotionPredictionConfig& prediction, MotionPriorConfig& prior) {
   keys.section("prediction", "Motion prediction from up to three past poses (III-B)");
   keys.boolean("enabled", prediction.enabled, "false: the last pose is the prediction");
-  keys.real("recent_half_sigma_m", prediction.recent_half_sigma_m, 0.001, 100, "m", "sigma_th at which the newest increment weighs 3/4");
+  keys.real("recent_half_sigma_m", prediction.recent_half_sigma_m, 0.001, 100, "m",
+            "sigma_th at which the newest increment weighs 3/4");
 
   keys.section("prior", "Prior of the registration from the motion so far (white noise on acceleration)");
   keys.boolean("enabled", prior.enabled, "false: the sweep alone decides, as in the paper");
-  keys.real("acceleration_m_s2", prior.acceleration_m_s2, 0.01, 1000, "m/s²", "usual change of velocity within 0.1 s, per second");
-  keys.real("angular_acceleration_rad_s2", prior.angular_acceleration_rad_s2, 0.01, 1000, "rad/s²", "the same of the turn rate");
+  keys.real("acceleration_m_s2", prior.acceleration_m_s2, 0.01, 1000, "m/s²",
+            "usual change of velocity within 0.1 s, per second");
+  keys.real("angular_acceleration_rad_s2", prior.angular_acceleration_rad_s2, 0.01, 1000, "rad/s²",
+            "the same of the turn rate");
 }
 
 void add_initial_pose(ConfigKeys& keys, InitialPoseConfig& c) {
@@ -51,7 +56,8 @@ void add_initial_pose(ConfigKeys& keys, InitialPoseConfig& c) {
   keys.real("tau_m", c.tau_m, 0, 100, "m", "tau of the paper's rule");
   keys.real("score_sigma_m", c.score_sigma_m, 0.001, 10, "m", "tolerance of the map score");
   keys.integer("score_points", c.score_points, 10, 1000000, "", "points that the map score looks at");
-  keys.real("alarm", c.alarm, 0, 1, "", "the prediction is in doubt when its score is below this share of the usual score");
+  keys.real("alarm", c.alarm, 0, 1, "",
+            "the prediction is in doubt when its score is below this share of the usual score");
   keys.real("margin", c.margin, 0, 1, "", "by how much the coarse result's score must beat the prediction's");
   keys.boolean("restarts", c.restarts, "in doubt, start the coarse stage also from poses found by a search on the map");
   keys.real("search_shift_m", c.search_shift_m, 0, 50, "m", "half width of that search along x and y");
@@ -64,15 +70,18 @@ void add_threshold(ConfigKeys& keys, AdaptiveThresholdConfig& c) {
   keys.real("floor_m", c.floor_m, 0.001, 100, "m", "sigma_th is never below");
   keys.real("ceiling_m", c.ceiling_m, 0.001, 100, "m", "sigma_th is never above; at least floor_m");
   keys.real("decay", c.decay, 0.001, 1000, "", "sigma_decay of the motion weight gamma");
-  keys.real("rotation_scale_m", c.rotation_scale_m, 0, 100, "m", "sigma_max: largest share of the rotation in the error");
+  keys.real("rotation_scale_m", c.rotation_scale_m, 0, 100, "m",
+            "sigma_max: largest share of the rotation in the error");
   keys.real("rotation_gain", c.rotation_gain, 0, 1000, "1/rad", "beta of tanh(beta theta)");
   keys.real("forgetting", c.forgetting, 0, 1, "", "weight of the past per sweep; 1: the paper's mean over all sweeps");
 }
 
 void add_icp(ConfigKeys& keys, AdaptiveIcpConfig& c) {
   keys.section("icp", "Point-to-plane registration of the source cloud to the local map (III-D)");
-  keys.boolean("adaptive", c.adaptive, "false: ablation B, unit weights within fixed_gate_m instead of weights from sigma_th");
-  keys.real("fixed_gate_m", c.fixed_gate_m, 0.001, 100, "m", "residuals beyond it are no correspondences when adaptive is off");
+  keys.boolean("adaptive", c.adaptive,
+               "false: ablation B, unit weights within fixed_gate_m instead of weights from sigma_th");
+  keys.real("fixed_gate_m", c.fixed_gate_m, 0.001, 100, "m",
+            "residuals beyond it are no correspondences when adaptive is off");
   keys.real("gate", c.gate, 0.1, 100, "", "residuals beyond gate * sigma_th are no correspondences");
   keys.integer("max_iterations", c.max_iterations, 1, 1000, "", "iterations of one registration");
   keys.integer("coarse_stride", c.coarse_stride, 1, 100, "", "every n-th point until it converges, then all points");
@@ -82,17 +91,20 @@ void add_icp(ConfigKeys& keys, AdaptiveIcpConfig& c) {
   keys.boolean("refine_motion", c.refine_motion, "estimate the velocity during the sweep together with the pose");
   keys.real("noise_m", c.noise_m, 0.0001, 10, "m", "least standard deviation of a residual");
   keys.real("independent_share", c.independent_share, 1e-6, 1, "", "share of the residuals that count as independent");
-  keys.real("weak_direction", c.weak_direction, 0, 1, "", "relative eigenvalue at which half of a direction is the prior's; 0: off");
+  keys.real("weak_direction", c.weak_direction, 0, 1, "",
+            "relative eigenvalue at which half of a direction is the prior's; 0: off");
 }
 
 void add_map(ConfigKeys& keys, LocalMapConfig& c) {
   keys.section("map", "Local voxel map");
   keys.real("voxel_m", c.voxel_m, 0.01, 10, "m", "smallest voxel; every level above doubles it");
   keys.integer("levels", c.levels, 1, 10, "", "number of voxel sizes");
-  keys.real("scene_voxels", c.scene_voxels, 1, 10000, "", "the finest level in use has the voxel nearest to scene range / this");
+  keys.real("scene_voxels", c.scene_voxels, 1, 10000, "",
+            "the finest level in use has the voxel nearest to scene range / this");
   keys.real("radius_m", c.radius_m, 1, 10000, "m", "voxels farther from the sensor are evicted");
   keys.integer("min_points", c.min_points, 3, 1000000, "", "a voxel with fewer points has no plane");
-  keys.integer("max_points", c.max_points, 3, 1000000, "", "a voxel with that many points is full; at least min_points");
+  keys.integer("max_points", c.max_points, 3, 1000000, "",
+               "a voxel with that many points is full; at least min_points");
   keys.real("max_planarity", c.max_planarity, 0, 1, "", "largest smallest-to-middle eigenvalue ratio of a plane");
   keys.real("min_extent", c.min_extent, 0, 1, "voxels", "smallest middle standard deviation of a plane");
 }
@@ -100,9 +112,12 @@ void add_map(ConfigKeys& keys, LocalMapConfig& c) {
 void add_health(ConfigKeys& keys, HealthConfig& c) {
   keys.section("health", "When a pose is called degenerate, poorly supported or lost");
   keys.real("lost_share", c.lost_share, 0, 1, "", "lost when the map score falls below this share of the usual one");
-  keys.real("few_inlier_ratio", c.few_inlier_ratio, 0, 1, "", "fewer correspondences than this share of the source are few");
-  keys.real("degenerate_ratio", c.degenerate_ratio, 0, 1, "", "a relative eigenvalue below it: a direction is not constrained");
-  keys.integer("restart_after", c.restart_after, 1, 1000000, "sweeps", "lost for so long, a new map starts at the predicted pose");
+  keys.real("few_inlier_ratio", c.few_inlier_ratio, 0, 1, "",
+            "fewer correspondences than this share of the source are few");
+  keys.real("degenerate_ratio", c.degenerate_ratio, 0, 1, "",
+            "a relative eigenvalue below it: a direction is not constrained");
+  keys.integer("restart_after", c.restart_after, 1, 1000000, "sweeps",
+               "lost for so long, a new map starts at the predicted pose");
 }
 
 }  // namespace

@@ -74,7 +74,9 @@ class ConfigKeys {
   ConfigKeys() : sections_(1) {}
 
   /// The keys that follow are "NAME.…".
-  void section(std::string name, std::string meaning) { sections_.push_back({std::move(name), std::move(meaning), {}}); }
+  void section(std::string name, std::string meaning) {
+    sections_.push_back({std::move(name), std::move(meaning), {}});
+  }
 
   void real(std::string_view name, double& member, double least, double most, std::string unit, std::string meaning);
   void integer(std::string_view name, int& member, int least, int most, std::string unit, std::string meaning);

@@ -1,0 +1,28 @@
+// Poses on disk while the run goes on.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+#include "rilo/geometry/se3.hpp"
+
+namespace rilo::cli {
+
+/// `poses_lidar.partial.txt` in the output folder, KITTI form, a line a sweep handed to the system at once: even a run
+/// that is killed leaves a valid beginning. It goes away when the whole files are in place.
+class PartialPoses {
+ public:
+  /// An empty `folder`: nothing is written.
+  explicit PartialPoses(const std::filesystem::path& folder);
+
+  /// @throws CommandError(kCannotWrite) when the disk is full.
+  void add(const SE3& T_odom_lidar);
+
+  void remove();
+
+ private:
+  std::filesystem::path file_;
+  std::ofstream stream_;
+};
+
+}  // namespace rilo::cli

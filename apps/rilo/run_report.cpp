@@ -1,0 +1,80 @@
+#include "run_report.hpp"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "rilo/evaluation/alignment.hpp"
+#include "text.hpp"
+
+namespace rilo::cli {
+
+namespace {
+
+ReportSweep report_sweep(const SweepResult& result) {
+  const SweepStats& s = result.stats;
+  ReportSweep sweep;
+  sweep.total_ms = s.times.total_ms;
+  sweep.preprocess_ms = s.times.preprocess_ms;
+  sweep.coarse_ms = s.times.initial_pose_ms;
+  sweep.registration_ms = s.times.registration_ms;
+  sweep.map_ms = s.times.map_ms;
+  sweep.iterations = s.iterations;
+  sweep.inlier_ratio = s.inlier_ratio;
+  sweep.sigma_th_m = s.sigma_th_m;
+  sweep.status = to_string(result.status);
+  sweep.initial_pose = to_string(s.initial_pose);
+  return sweep;
+}
+
+std::string notice_of(const RunRecord& run) {
+  if (!run.error.empty()) return valid_utf8("The run ended at an error; this is the part before. " + run.error);
+  if (run.signal != 0) return "The run was interrupted; this is the part before.";
+  return "";
+}
+
+std::string compensation_of(const RunRecord& run) {
+  if (!run.config.preprocess.deskew) return "off (preprocess.deskew)";
+  return run.source.has_point_times ? "on" : "off (no point times)";
+}
+
+void add_facts(const RunRecord& run, const nlohmann::json& metrics, RunReport& report) {
+  report.facts = {{"Command", run.command_line},
+                  {"Rilo", metrics["rilo_version"].get<std::string>()},
+                  {"Format", run.source.kind + ", " + run.source.format},
+                  {"Threads", std::to_string(run.threads)},
+                  {"Pose instant", std::string(to_string(run.pose_instant)) + " of the sweep"},
+                  {"Point times", valid_utf8(run.source.point_times)},
+                  {"Motion compensation", compensation_of(run)},
+                  {"Elevation correction", fmt::format("{}°", run.source.elevation_correction_deg)},
+                  {"Time measured", metrics["ms_note"].get<std::string>()}};
+  if (run.truth) {
+    report.facts.emplace_back("Ground truth", valid_utf8(run.truth->file + " (" + run.truth->instant + ")"));
+  }
+  for (const std::string& warning : run.source.warnings) report.facts.emplace_back("Warning", valid_utf8(warning));
+}
+
+}  // namespace
+
+RunReport report_of(const RunRecord& run, const nlohmann::json& metrics) {
+  RunReport report;
+  report.title = valid_utf8("Rilo: " + last_name(run.data));
+  report.dataset = valid_utf8(run.data.string());
+  report.notice = notice_of(run);
+  add_facts(run, metrics, report);
+  for (const SweepResult& result : run.results) {
+    report.estimate.push_back(result.T_odom_lidar);
+    report.sweeps.push_back(report_sweep(result));
+  }
+  if (run.truth) {
+    const SE3 T_odom_world = run.truth->estimate.front() * run.truth->truth.front().inverse();
+    report.truth = moved(run.truth->truth, T_odom_world);
+  }
+  report.evaluation = run.evaluation;
+  report.map_points = run.map;
+  report.sweep_period_ms = run.source.period_s * 1e3;
+  report.peak_rss_mb = run.peak_rss_mb;
+  return report;
+}
+
+}  // namespace rilo::cli

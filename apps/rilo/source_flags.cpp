@@ -1,0 +1,71 @@
+#include "source_flags.hpp"
+
+#include "command.hpp"
+
+namespace rilo::cli {
+
+namespace {
+
+// An option with a fixed set of words.
+template <typename Take>
+CLI::Option* add_choice(CLI::App& command, const char* name, const Take& take, std::vector<std::string> words,
+                        const char* help) {
+  return command.add_option_function<std::string>(name, take, help)->check(CLI::IsMember(std::move(words)));
+}
+
+void add_time_flags(CLI::App& command, SourceFlags& flags) {
+  SourceOptions& options = flags.options;
+  add_choice(
+      command, "--point-times",
+      [&flags](const std::string& text) {
+        flags.times_needed = text == "data";
+        flags.options.point_times = flags.times_needed ? PointTimes::kAuto : parse_point_times(text).value();
+      },
+      {"auto", "data", "azimuth", "none"},
+      "per-point times for motion compensation. auto: from the data when it has them; data: the same, and an error "
+      "when it has none; azimuth: from the angle of a clockwise spinning sensor whose sweep is stamped when it faces "
+      "forward (KITTI raw); none: the points are compensated already. Default: auto");
+  add_choice(
+      command, "--point-time-unit",
+      [&options](const std::string& text) { options.point_time_unit = parse_point_time_unit(text).value(); },
+      {"infer", "s", "ms", "us", "ns", "fraction"}, "unit of the time field when it cannot be told from the data");
+  add_choice(
+      command, "--point-time-reference",
+      [&options](const std::string& text) { options.point_time_reference = parse_point_time_reference(text).value(); },
+      {"infer", "stamp", "epoch"}, "what the time field counts from: the sweep's stamp or an epoch");
+  command.add_option("--time-field", options.time_field, "name of the PCD or PLY field with the point times");
+  add_choice(
+      command, "--spin",
+      [&options](const std::string& text) { options.spin_direction = parse_spin_direction(text).value(); },
+      {"clockwise", "counter-clockwise"}, "sense of rotation seen from above, for --point-times azimuth");
+}
+
+}  // namespace
+
+void add_source_flags(CLI::App& command, SourceFlags& flags) {
+  SourceOptions& options = flags.options;
+  command
+      .add_option("--bin-fields", options.bin_fields,
+                  "columns of a .bin record, float32 each: x,y,z and intensity, time, ring; _ is ignored")
+      ->capture_default_str();
+  add_time_flags(command, flags);
+  command
+      .add_option("--elevation-correction", options.elevation_correction_deg,
+                  "degrees added to every point's elevation angle. KITTI's HDL-64E needs 0.205. Off by default; stated "
+                  "in every result")
+      ->capture_default_str();
+  command.add_option("--rate", options.assumed_rate_hz, "sweeps per second of data without stamps")
+      ->capture_default_str();
+  command.add_flag_callback(
+      "--skip-bad-sweeps", [&options] { options.on_bad_sweep = OnBadSweep::kSkip; },
+      "leave out sweeps that cannot be read (counted in the results) instead of stopping");
+}
+
+void check_point_times(const SourceFlags& flags, const Sweep& sweep, const std::string& name) {
+  if (!flags.times_needed || !sweep.times_s.empty() || sweep.points.empty()) return;
+  throw CommandError(kBadData, name +
+                                   ": no per-point times; expected them because of --point-times data. Take auto, "
+                                   "azimuth or none, or name the field with --time-field");
+}
+
+}  // namespace rilo::cli

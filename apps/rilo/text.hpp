@@ -1,0 +1,23 @@
+// Text for people and for files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace rilo::cli {
+
+/// Indented; bytes of file names that are no UTF-8 are replaced rather than refused.
+std::string json_text(const nlohmann::json& json);
+
+/// `text` with such bytes replaced.
+std::string valid_utf8(const std::string& text);
+
+/// The command line as one would type it.
+std::string command_line(int argc, const char* const* argv);
+
+/// Last part of a path, also when it ends in a slash.
+std::string last_name(const std::filesystem::path& path);
+
+}  // namespace rilo::cli

@@ -1,0 +1,46 @@
+// rilo info.
+#include "cli/drives.hpp"
+
+namespace rilo::test {
+namespace {
+
+TEST(InfoCommand, JsonOfADrive) {
+  const auto info = nlohmann::json::parse(rilo_succeeds({"info", shared_drive(), "--json"}).out);
+  EXPECT_EQ(info["sweeps"], kDriveSweeps);
+  EXPECT_EQ(info["sweeps_read"], kDriveSweeps);
+  EXPECT_GT(info["points"]["min"], 1000);
+  EXPECT_LE(info["points"]["min"], info["points"]["max"]);
+  EXPECT_EQ(info["points"]["not_finite"], 0);
+  EXPECT_LT(info["range_m"]["p5"], info["range_m"]["p95"]);
+  EXPECT_NEAR(info["stamps"]["period_s"].get<double>(), 0.1, 1e-3);
+  EXPECT_NE(info["point_times"]["source"].get<std::string>().find("times_pt"), std::string::npos);
+  EXPECT_EQ(info["calibration"], true);
+  EXPECT_EQ(info["truth"]["poses"], kDriveSweeps);
+  EXPECT_EQ(info["bad_sweeps"], 0);
+  EXPECT_EQ(info["elevation_correction_deg"], 0.0);
+}
+
+TEST(InfoCommand, TextOfADrive) {
+  const Outcome info = rilo_succeeds({"info", shared_drive()});
+  for (const char* part : {"12 sweeps", "points", "range", "point times", "calibration", "ground truth", "12 poses"}) {
+    EXPECT_NE(info.out.find(part), std::string::npos) << part << " in\n" << info.out;
+  }
+  EXPECT_EQ(info.err, "");
+}
+
+TEST(InfoCommand, SaysWhatIsWrongWithTheTruth) {
+  const TempDir folder;
+  const auto drive = copy_of_drive(folder);
+  replace(drive / "poses_mid.txt", "no poses\n");
+  const auto info = nlohmann::json::parse(rilo_succeeds({"info", drive, "--json"}).out);
+  EXPECT_NE(info["truth"]["error"].get<std::string>().find("poses_mid.txt"), std::string::npos);
+}
+
+TEST(InfoCommand, MissingAndEmptyData) {
+  const TempDir folder;
+  rilo_fails(3, {"info", folder / "nowhere"}, {"nowhere"});
+  rilo_fails(3, {"info", folder.path()}, {folder.path()});
+}
+
+}  // namespace
+}  // namespace rilo::test

@@ -1,0 +1,54 @@
+// Help, version, and wrong command lines.
+#include <regex>
+
+#include "cli/command_process.hpp"
+
+namespace rilo::test {
+namespace {
+
+TEST(Usage, HelpTeachesWithExamples) {
+  EXPECT_NE(rilo_succeeds({"--help"}).out.find("Exit codes"), std::string::npos);
+  for (const std::string command : {"run", "eval", "simulate", "config", "info"}) {
+    const Outcome help = rilo_succeeds({command, "--help"});
+    EXPECT_NE(help.out.find("Example"), std::string::npos) << command;
+    EXPECT_NE(help.out.find("rilo " + command), std::string::npos) << command;
+    EXPECT_EQ(help.err, "") << command;
+  }
+}
+
+TEST(Usage, Version) {
+  const Outcome version = rilo_succeeds({"--version"});
+  EXPECT_TRUE(std::regex_match(version.out, std::regex(R"(rilo \d+\.\d+\.\d+\n)"))) << version.out;
+  EXPECT_EQ(version.err, "");
+}
+
+TEST(Usage, WrongCommandLinesEndWith2AndOneLine) {
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"drive"},
+      {"run"},
+      {"run", "data", "more"},
+      {"run", "data", "--bogus"},
+      {"run", "data", "--threads", "-2"},
+      {"run", "data", "--count", "many"},
+      {"run", "data", "--start", "-1"},
+      {"run", "data", "--point-times", "guess"},
+      {"run", "data", "--spin", "sideways"},
+      {"eval", "one"},
+      {"eval", "a", "b", "--associate", "name"},
+      {"eval", "a", "b", "--max-gap-s", "-1"},
+      {"simulate"},
+      {"simulate", "--out", "x", "--sensor", "vlp32"},
+      {"config"},
+      {"config", "--dump", "--check", "x"},
+      {"info"},
+  };
+  for (const auto& arguments : wrong) {
+    const Outcome outcome = rilo_fails(2, arguments, {"--"});
+    EXPECT_EQ(outcome.out, "") << testing::PrintToString(arguments);
+    EXPECT_EQ(lines_of(outcome.err).size(), 1U) << testing::PrintToString(arguments) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace rilo::test

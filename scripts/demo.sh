@@ -9,7 +9,7 @@ scripts/setup.sh --minimal
 preset=demo
 ! grep -qs '^RILO_BUILD_TESTS:.*=ON' build/release/CMakeCache.txt || preset=release
 build_preset "$preset" --target rilo_cli
-rilo=build/release/apps/rilo/rilo
+rilo=build/release/rilo
 
 echo "== Simulating 220 sweeps of a 64-beam sensor"
 rm -rf out/demo

@@ -12,6 +12,14 @@ namespace {
 constexpr std::chrono::milliseconds kBarInterval{100};
 constexpr std::chrono::seconds kLineInterval{5};
 constexpr std::size_t kBarWidth = 30;
+const std::string kClearLine = "\r\033[K";
+
+// A closed standard error is no reason to stop: unlike fmt::print, this does not throw.
+void show(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 }  // namespace
 
 Progress::Progress(std::string what, std::optional<std::size_t> total, bool quiet)
@@ -30,13 +38,8 @@ void Progress::update(std::size_t done, const std::string& note) {
     return;
   }
   shown_ = now;
-  if (terminal_) {
-    fmt::print(stderr, "\r\033[K{}", line(done, note));
-    open_line_ = true;
-  } else {
-    fmt::print(stderr, "{}\n", line(done, note));
-  }
-  std::fflush(stderr);
+  open_line_ = terminal_;
+  show(terminal_ ? kClearLine + line(done, note) : line(done, note) + "\n");
 }
 
 std::string Progress::line(std::size_t done, const std::string& note) const {
@@ -54,13 +57,12 @@ std::string Progress::line(std::size_t done, const std::string& note) const {
 
 void Progress::say(const std::string& text) {
   if (quiet_) return;
-  fmt::print(stderr, "{}{}\n", terminal_ ? "\r\033[K" : "", text);
-  std::fflush(stderr);
+  show((terminal_ ? kClearLine : "") + text + "\n");
 }
 
 void Progress::finish() {
   if (open_line_) {
-    fmt::print(stderr, "\n");
+    show("\n");
     open_line_ = false;
   }
 }

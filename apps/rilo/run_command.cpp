@@ -51,7 +51,7 @@ int finish(const RunFlags& flags, const RunRecord& run, PartialPoses& partial) {
   }
   if (!run.error.empty()) {
     throw CommandError(run.error_code,
-                       fmt::format("{} (kept: the {} sweeps before it)", run.error, run.results.size()));
+                       fmt::format("{} (kept: {} before it)", run.error, counted(run.results.size(), "sweep")));
   }
   return run.signal == 0 ? kSuccess : kSignalBase + run.signal;
 }

@@ -125,8 +125,8 @@ nlohmann::json run_metrics(const RunRecord& run) {
 }
 
 std::string run_summary(const nlohmann::json& m) {
-  std::string text = fmt::format("{} sweeps of {}{}\n", m["frames"].get<std::size_t>(), m["data"].get<std::string>(),
-                                 m["interrupted"].get<bool>() ? " (interrupted)" : "");
+  std::string text = fmt::format("{} of {}{}\n", counted(m["frames"].get<std::size_t>(), "sweep"),
+                                 m["data"].get<std::string>(), m["interrupted"].get<bool>() ? " (interrupted)" : "");
   if (!m["ms"].is_null()) {
     text +=
         fmt::format("time per sweep  mean {:.1f} ms, median {:.1f}, p95 {:.1f}, p99 {:.1f}, max {:.1f}  ({} threads)\n",

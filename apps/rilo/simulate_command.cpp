@@ -8,6 +8,7 @@
 #include "progress.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 #include "rilo/simulation/drive_writer.hpp"
+#include "text.hpp"
 
 namespace rilo::cli {
 
@@ -38,8 +39,8 @@ int simulate(const SimulateFlags& flags) {
   }
   progress.finish();
   if (!flags.quiet) {
-    std::cout << fmt::format("{} sweeps, {} points, {:.1f} m: {}\n", summary.sweeps, summary.points, summary.path_m,
-                             flags.out);
+    std::cout << fmt::format("{}, {} points, {:.1f} m: {}\n", counted(summary.sweeps, "sweep"), summary.points,
+                             summary.path_m, flags.out);
   }
   return InterruptGuard::signal() == 0 ? kSuccess : kSignalBase + InterruptGuard::signal();
 }

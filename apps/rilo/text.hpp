@@ -1,6 +1,7 @@
 // Text for people and for files.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -16,6 +17,9 @@ std::string valid_utf8(const std::string& text);
 
 /// The command line as one would type it.
 std::string command_line(int argc, const char* const* argv);
+
+/// "1 sweep", "2 sweeps".
+std::string counted(std::size_t count, const std::string& thing);
 
 /// Last part of a path, also when it ends in a slash.
 std::string last_name(const std::filesystem::path& path);

@@ -7,9 +7,9 @@ namespace {
 TEST(ConfigFlags, UnknownKeySuggestsTheNearest) {
   const TempDir folder;
   const std::string file = folder.write("wrong.yaml", "map:\n  voxel_siz: 1\n");
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"config", "--check", file}, {"config", "--dump", "--config", file},
-        {"run", folder.path(), "--config", file}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"config", "--check", file},
+                                                    {"config", "--dump", "--config", file},
+                                                    {"run", folder.path(), "--config", file}}) {
     rilo_fails(2, arguments, {"wrong.yaml", "voxel_siz", "Did you mean map.voxel_m?"});
   }
 }

@@ -30,7 +30,8 @@ fs::path long_folder(const TempDir& folder, std::size_t sweeps) {
   constexpr std::size_t kPeriod = 2 * (kDriveSweeps - 1);
   for (std::size_t i = 0; i < sweeps; ++i) {
     const std::size_t phase = i % kPeriod;
-    fs::create_symlink(sweep_file(shared_drive(), std::min(phase, kPeriod - phase)), made / (std::to_string(i) + ".bin"));
+    fs::create_symlink(sweep_file(shared_drive(), std::min(phase, kPeriod - phase)),
+                       made / (std::to_string(i) + ".bin"));
   }
   return made;
 }

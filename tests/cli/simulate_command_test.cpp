@@ -9,7 +9,8 @@ TEST(SimulateCommand, SameBytesForAnyNumberOfThreads) {
   const auto simulate = [&](const std::string& name, const std::string& threads, const std::string& seed) {
     rilo_succeeds({"simulate", "--out", folder / name, "--sensor", "vlp16", "--sweeps", "3", "--start", "10", "--seed",
                    seed, "--threads", threads});
-    return slurp(sweep_file(folder / name, 2)) + slurp(folder / name / "poses.txt") + slurp(folder / name / "times.txt");
+    return slurp(sweep_file(folder / name, 2)) + slurp(folder / name / "poses.txt") +
+           slurp(folder / name / "times.txt");
   };
   const std::string bytes = simulate("one", "1", "5");
   EXPECT_GT(bytes.size(), 100000U);

@@ -1,0 +1,79 @@
+// Options of rilo run.
+#include "cli/drives.hpp"
+
+namespace rilo::test {
+namespace {
+
+using nlohmann::json;
+
+json metrics_of(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"run", shared_drive()});
+  arguments.emplace_back("--json");
+  return json::parse(rilo_succeeds(arguments).out);
+}
+
+TEST(RunFlags, StartAndCount) {
+  const TempDir folder;
+  const json metrics = metrics_of({"--start", "3", "--count", "4", "--out", folder / "out", "--no-report"});
+  EXPECT_EQ(metrics["frames"], 4);
+  EXPECT_EQ(metrics["evaluation"]["poses"], 4);
+  EXPECT_LT(metrics["evaluation"]["ape_unaligned_m"]["rmse"], 0.25) << "sweeps matched to the truth of others";
+  const auto lines = lines_of(slurp(folder / "out" / "sweeps.csv"));
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_TRUE(lines[1].starts_with("3,"));
+  EXPECT_TRUE(lines[4].starts_with("6,"));
+}
+
+TEST(RunFlags, CountBeyondTheEndAndStartBeyondTheEnd) {
+  EXPECT_EQ(metrics_of({"--start", "10", "--count", "100"})["frames"], 2);
+  rilo_fails(3, {"run", shared_drive(), "--start", "12"}, {"no sweep"});
+}
+
+TEST(RunFlags, JsonIsTheMetricsFile) {
+  const TempDir folder;
+  const json printed = metrics_of({"--count", "3", "--out", folder / "out"});
+  EXPECT_EQ(printed, json_file(folder / "out" / "metrics.json"));
+}
+
+TEST(RunFlags, QuietPrintsNothing) {
+  const TempDir folder;
+  const auto drive = copy_of_drive(folder);
+  replace(drive / "poses_mid.txt", "no poses\n");  // a warning, were it not quiet
+  const Outcome run = rilo_succeeds({"run", drive, "--quiet", "--count", "3", "--out", folder / "out"});
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(rilo_succeeds({"simulate", "--quiet", "--sweeps", "2", "--sensor", "vlp16", "--out", folder / "d"}).out,
+            "");
+}
+
+TEST(RunFlags, PointTimesAndElevationCorrectionAreReported) {
+  const json azimuth = metrics_of({"--count", "3", "--point-times", "azimuth", "--elevation-correction", "0.205"});
+  EXPECT_EQ(azimuth["elevation_correction_deg"], 0.205);
+  EXPECT_EQ(azimuth["motion_compensation"], true);
+  EXPECT_NE(azimuth["point_times"].get<std::string>().find("azimuth"), std::string::npos) << azimuth["point_times"];
+  const json none = metrics_of({"--count", "3", "--point-times", "none"});
+  EXPECT_EQ(none["elevation_correction_deg"], 0.0);
+  EXPECT_EQ(none["motion_compensation"], false);
+  const json off = metrics_of({"--count", "3", "--set", "preprocess.deskew=false"});
+  EXPECT_EQ(off["motion_compensation"], false);
+}
+
+TEST(RunFlags, TheElevationCorrectionChangesThePoints) {
+  const TempDir folder;
+  const auto map = [&](const std::string& degrees) {
+    const auto file = folder / (degrees + ".ply");
+    rilo_succeeds({"run", shared_drive(), "--count", "2", "--quiet", "--map", file, "--elevation-correction", degrees});
+    return slurp(file);
+  };
+  EXPECT_NE(map("0"), map("0.205"));
+}
+
+TEST(RunFlags, PointTimesOnDemand) {
+  const TempDir folder;
+  const auto sweeps = long_folder(folder, 3);
+  rilo_fails(3, {"run", sweeps, "--point-times", "data"}, {"per-point times"});
+  EXPECT_EQ(metrics_of({"--count", "2", "--point-times", "data"})["motion_compensation"], true);
+}
+
+}  // namespace
+}  // namespace rilo::test

@@ -3,6 +3,7 @@
 #include <csignal>
 
 #include "cli/drives.hpp"
+#include "rilo/io/pose_reader.hpp"
 
 namespace rilo::test {
 namespace {

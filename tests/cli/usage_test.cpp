@@ -32,6 +32,7 @@ TEST(Usage, WrongCommandLinesEndWith2AndOneLine) {
       {"run", "data", "--threads", "-2"},
       {"run", "data", "--count", "many"},
       {"run", "data", "--start", "-1"},
+      {"run", "data", "--count", "-1"},
       {"run", "data", "--point-times", "guess"},
       {"run", "data", "--spin", "sideways"},
       {"eval", "one"},

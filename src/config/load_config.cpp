@@ -1,9 +1,11 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include "rilo/config/config_file.hpp"
@@ -122,17 +124,42 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
+/// Takes no notice of what a parser finds.
+class IgnoreEvents : public YAML::EventHandler {
+ public:
+  using Mark = YAML::Mark;
+  using Anchor = YAML::anchor_t;
+  using Style = YAML::EmitterStyle::value;
+  void OnDocumentStart(const Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const Mark& /*mark*/, Anchor /*anchor*/) override {}
+  void OnAlias(const Mark& /*mark*/, Anchor /*anchor*/) override {}
+  void OnScalar(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
+                const std::string& /*value*/) override {}
+  void OnSequenceStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/, Style /*style*/) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/, Style /*style*/) override {}
+  void OnMapEnd() override {}
+};
+
+/// YAML::LoadAll would do, but at a stray comma it adds documents until memory runs out (yaml-cpp 0.7).
+bool has_second_document(std::string_view yaml) {
+  std::istringstream stream{std::string(yaml)};
+  YAML::Parser parser(stream);
+  IgnoreEvents ignore;
+  return parser.HandleNextDocument(ignore) && parser.HandleNextDocument(ignore);
+}
+
 }  // namespace
 
 OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base) {
   OdometryConfig config = base;
   const ConfigKeys keys = odometry_keys(config);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(yaml));
-    if (documents.size() > 1) {
-      throw ConfigError({name, position_of(documents[1].Mark()), "a second document", "one document", ""});
+    if (has_second_document(yaml)) {
+      throw ConfigError({name, "", "a second document", "one document", ""});
     }
-    if (!documents.empty()) Loader(keys, name).load(documents.front());
+    Loader(keys, name).load(YAML::Load(std::string(yaml)));
   } catch (const YAML::Exception& error) {
     throw ConfigError({name, position_of(error.mark), "this is no YAML (" + error.msg + ")", "\"key: value\" lines",
                        "`rilo config --dump` shows how the file looks"});

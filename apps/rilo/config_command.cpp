@@ -1,6 +1,7 @@
 // rilo config: prints and checks configurations.
 #include <iostream>
 
+#include "checks.hpp"
 #include "command.hpp"
 #include "rilo/config/config_file.hpp"
 
@@ -40,9 +41,10 @@ void add_config_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("config", "print or check a configuration");
   command->footer(kFooter);
   auto* dump = command->add_flag("--dump", flags->dump, "print the configuration as YAML");
-  auto* check = command->add_option("--check", flags->check, "check a file and say what is wrong with it");
+  auto* check =
+      command->add_option("--check", flags->check, "check a file and say what is wrong with it")->check(path_given());
   dump->excludes(check);
-  command->add_option("--config", flags->file, "start from this file")->excludes(check);
+  command->add_option("--config", flags->file, "start from this file")->check(path_given())->excludes(check);
   command->add_option("--set", flags->settings, "key=value, repeatable")->allow_extra_args(false)->excludes(check);
   command->add_flag("--markdown", flags->markdown, "with --dump: as tables for the documentation")->needs(dump);
   command->callback([flags, &exit_code] {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "checks.hpp"
 #include "command.hpp"
 #include "evaluation_output.hpp"
 #include "pose_files.hpp"
@@ -111,10 +112,11 @@ void add_flags(CLI::App& command, EvalFlags& flags) {
           "pair poses by index or by stamp. Default: auto, by stamp when both files have stamps")
       ->check(CLI::IsMember({"auto", "index", "stamp"}));
   command.add_option("--max-gap-s", flags.pairing.max_gap_s, "largest distance of two stamps that belong together")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_within(0, 1e6))
       ->capture_default_str();
   command
       .add_option("--start", flags.pairing.first, "by index: the true pose that EST begins with, as for run --start")
+      ->check(whole_number())
       ->capture_default_str();
   command.add_flag("--json", flags.json, "print JSON");
 }

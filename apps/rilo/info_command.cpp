@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "checks.hpp"
 #include "command.hpp"
 #include "rilo/io/ground_truth.hpp"
 #include "rilo/io/io_error.hpp"
@@ -205,7 +206,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<InfoFlags>();
   CLI::App* command = app.add_subcommand("info", "what a data set holds");
   command->footer("Example:\n  rilo info kitti/sequences/00");
-  command->add_option("DATA", flags->data, "folder or file with sweeps")->required();
+  command->add_option("DATA", flags->data, "folder or file with sweeps")->required()->check(path_given());
   command->add_flag("--all", flags->all, "read every sweep (counts gaps in the stamps too) instead of about fifty");
   command->add_flag("--json", flags->json, "print JSON");
   add_source_flags(*command, flags->source);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "checks.hpp"
 #include "command.hpp"
 #include "interrupt.hpp"
 #include "rilo/config/config_file.hpp"
@@ -85,17 +86,23 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
 }
 
 void add_flags(CLI::App& command, RunFlags& flags) {
-  command.add_option("DATA", flags.data, "folder or file with sweeps")->required();
-  command.add_option("--config", flags.config_file, "YAML configuration; rilo config --dump prints one");
+  command.add_option("DATA", flags.data, "folder or file with sweeps")->required()->check(path_given());
+  command.add_option("--config", flags.config_file, "YAML configuration; rilo config --dump prints one")
+      ->check(path_given());
   command.add_option("--set", flags.settings, "key=value, repeatable; overrides the file")->allow_extra_args(false);
-  command.add_option("--out", flags.out, "folder for the results (created)");
-  command.add_option("--map", flags.map, "map of the whole run, .ply or .pcd, a point every 0.2 m");
-  command.add_option("--start", flags.start, "leave out that many sweeps")->capture_default_str();
-  command.add_option("--count", flags.count, "run that many sweeps; 0: all")->capture_default_str();
+  command.add_option("--out", flags.out, "folder for the results (created)")->check(path_given());
+  command.add_option("--map", flags.map, "map of the whole run, .ply or .pcd, a point every 0.2 m")
+      ->check(path_given());
+  command.add_option("--start", flags.start, "leave out that many sweeps")
+      ->check(whole_number())
+      ->capture_default_str();
+  command.add_option("--count", flags.count, "run that many sweeps; 0: all")
+      ->check(whole_number())
+      ->capture_default_str();
   command
       .add_option("--threads", flags.threads,
                   "threads; 0: as many as the machine has; the results do not depend on it. Default: as configured")
-      ->check(CLI::Range(0, 1024));
+      ->check(whole_number(1024));
   command.add_flag("--quiet", flags.quiet, "no progress, no warnings, no summary");
   command.add_flag("--json", flags.json, "print metrics.json instead of the summary");
   command.add_flag("--no-report", flags.no_report, "do not write report.html");

@@ -1,8 +1,14 @@
 // rilo simulate: a synthetic drive as a KITTI-style folder.
+#include <cstdint>
 #include <iostream>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
 
 #include <fmt/format.h>
 
+#include "checks.hpp"
 #include "command.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
@@ -24,8 +30,20 @@ constexpr const char* kFooter = R"(Example:
   rilo simulate --out drive --sensor vlp16 --sweeps 100 --seed 7
 The same options give the same bytes, whatever --threads is.)";
 
+DriveSimulator make_drive(const DriveConfig& config) {
+  try {
+    return DriveSimulator(config);
+  } catch (const std::invalid_argument& error) {
+    // All ranges but this one, which depends on the sensor, are checked with the options.
+    const std::string member = "DriveConfig::max_range_m";
+    std::string message = error.what();
+    if (message.starts_with(member)) message.replace(0, member.size(), "--max-range");
+    throw CommandError(kUsage, message);
+  }
+}
+
 int simulate(const SimulateFlags& flags) {
-  const DriveSimulator drive(flags.drive);
+  const DriveSimulator drive = make_drive(flags.drive);
   Progress progress("simulating", drive.size(), flags.quiet);
   const InterruptGuard guard;
   DriveSummary summary;
@@ -45,35 +63,41 @@ int simulate(const SimulateFlags& flags) {
   return InterruptGuard::signal() == 0 ? kSuccess : kSignalBase + InterruptGuard::signal();
 }
 
+void add_drive_flags(CLI::App& command, DriveConfig& drive) {
+  command
+      .add_option_function<std::string>(
+          "--sensor", [&drive](const std::string& text) { drive.sensor = parse_sensor_kind(text).value(); },
+          "hdl64, vlp16 or os1-64. Default: hdl64")
+      ->check(CLI::IsMember({"hdl64", "vlp16", "os1-64"}));
+  const auto whole = [&](const char* name, auto& member, std::int64_t most, const char* help) {
+    command.add_option(name, member, help)->check(whole_number(most))->capture_default_str();
+  };
+  const auto real = [&](const char* name, double& member, double least, double most, const char* help) {
+    command.add_option(name, member, help)->check(number_within(least, most))->capture_default_str();
+  };
+  whole("--sweeps", drive.sweeps, 20000, "number of sweeps, 10 a second; 0: a lap and a bit; at most 20000");
+  whole("--seed", drive.seed, std::numeric_limits<std::int64_t>::max(), "town, traffic and noise");
+  real("--start", drive.start_s, 0, 2000, "s into the drive, 0 … 2000 (0: standing)");
+  real("--speed", drive.speed_mps, 2, 15, "m/s on straight streets, 2 … 15");
+  real("--noise", drive.noise_m, 0, 0.5, "m, 0 … 0.5: standard deviation of a range");
+  real("--dropout", drive.dropout, 0, 0.9, "share of returns that are lost, 0 … 0.9");
+  real("--max-range", drive.max_range_m, 0, 1000, "m; 0: the sensor's own");
+  real("--elevation-bias", drive.elevation_bias_deg, -2, 2, "degrees, -2 … 2: true less reported elevation");
+  whole("--moving-cars", drive.moving_cars, 12, "0 … 12");
+  real("--parked-cars", drive.parked_cars, 0, 1, "share of the parking places that are taken, 0 … 1");
+  real("--trees", drive.trees, 0, 1, "share of the places for trees that have one, 0 … 1");
+  whole("--threads", drive.threads, 1024, "0: as many as the machine has");
+}
+
 }  // namespace
 
 void add_simulate_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<SimulateFlags>();
   CLI::App* command = app.add_subcommand("simulate", "make a synthetic drive with exact ground truth");
   command->footer(kFooter);
-  DriveConfig& drive = flags->drive;
-  command->add_option("--out", flags->out, "folder of the drive (created)")->required();
-  command
-      ->add_option_function<std::string>(
-          "--sensor", [&drive](const std::string& text) { drive.sensor = parse_sensor_kind(text).value(); },
-          "hdl64, vlp16 or os1-64")
-      ->check(CLI::IsMember({"hdl64", "vlp16", "os1-64"}));
-  command->add_option("--sweeps", drive.sweeps, "number of sweeps, 10 a second; 0: a lap and a bit")
-      ->capture_default_str();
-  command->add_option("--seed", drive.seed, "town, traffic and noise")->capture_default_str();
-  command->add_option("--start", drive.start_s, "seconds into the drive (0: standing)")->capture_default_str();
-  command->add_option("--speed", drive.speed_mps, "m/s on straight streets")->capture_default_str();
-  command->add_option("--noise", drive.noise_m, "standard deviation of a range, m")->capture_default_str();
-  command->add_option("--dropout", drive.dropout, "share of returns that are lost")->capture_default_str();
-  command->add_option("--elevation-bias", drive.elevation_bias_deg, "degrees, true less reported elevation")
-      ->capture_default_str();
-  command->add_option("--max-range", drive.max_range_m, "m; 0: the sensor's own")->capture_default_str();
-  command->add_option("--moving-cars", drive.moving_cars, "0 … 12")->capture_default_str();
-  command->add_option("--parked-cars", drive.parked_cars, "share of the parking places that are taken")
-      ->capture_default_str();
-  command->add_option("--trees", drive.trees, "share of the places for trees that have one")->capture_default_str();
-  command->add_option("--threads", drive.threads, "0: as many as the machine has")->capture_default_str();
-  command->add_flag("--deskewed", drive.deskewed, "points referred to the middle of the sweep, without times");
+  command->add_option("--out", flags->out, "folder of the drive (created)")->required()->check(path_given());
+  add_drive_flags(*command, flags->drive);
+  command->add_flag("--deskewed", flags->drive.deskewed, "points referred to the middle of the sweep, without times");
   command->add_flag("--quiet", flags->quiet, "no progress and no summary");
   command->callback([flags, &exit_code] { exit_code = simulate(*flags); });
 }

@@ -1,5 +1,6 @@
 #include "source_flags.hpp"
 
+#include "checks.hpp"
 #include "command.hpp"
 
 namespace rilo::cli {
@@ -53,8 +54,10 @@ void add_source_flags(CLI::App& command, SourceFlags& flags) {
       .add_option("--elevation-correction", options.elevation_correction_deg,
                   "degrees added to every point's elevation angle. KITTI's HDL-64E needs 0.205. Off by default; stated "
                   "in every result")
+      ->check(number_within(-10, 10))
       ->capture_default_str();
   command.add_option("--rate", options.assumed_rate_hz, "sweeps per second of data without stamps")
+      ->check(number_within(0.001, 1000))
       ->capture_default_str();
   command.add_flag_callback(
       "--skip-bad-sweeps", [&options] { options.on_bad_sweep = OnBadSweep::kSkip; },

@@ -1,0 +1,258 @@
+// One level of the map: planes, look-up across faces, eviction.
+#include <cmath>
+#include <map>
+#include <random>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "rilo/geometry/se3.hpp"
+#include "rilo/map/plane_grid.hpp"
+
+namespace rilo {
+namespace {
+
+constexpr PlaneCriteria kCriteria{6, 100, 0.1, 0.05};
+
+/// Points scattered over the square of half a metre around `centre`, `noise_m` off the plane with this normal.
+void insert_plane(PlaneGrid& grid, const Eigen::Vector3d& centre, const Eigen::Vector3d& normal, int count,
+                  double noise_m, unsigned seed) {
+  std::mt19937 rng(seed);
+  std::uniform_real_distribution<double> side(-0.25, 0.25);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.cross(u);
+  for (int i = 0; i < count; ++i) {
+    grid.insert(centre + side(rng) * u + side(rng) * v + noise_m * noise(rng) * normal);
+  }
+}
+
+TEST(PlaneGridTest, EmptyGridHasNothing) {
+  PlaneGrid grid(1.0, kCriteria);
+  MapPlane plane;
+  EXPECT_EQ(grid.size(), 0U);
+  EXPECT_EQ(grid.voxel_m(), 1.0);
+  EXPECT_FALSE(grid.find({0.5, 0.5, 0.5}, plane));
+  EXPECT_FALSE(grid.occupied({0.5, 0.5, 0.5}));
+  grid.evict(Eigen::Vector3d::Zero(), 1.0);
+  grid.refit();
+  std::vector<Eigen::Vector3f> out;
+  grid.centroids(out);
+  EXPECT_TRUE(out.empty());
+}
+
+TEST(PlaneGridTest, ExactPlanes) {
+  std::mt19937 rng(1);
+  std::normal_distribution<double> normal;
+  for (unsigned i = 0; i < 100; ++i) {
+    const Eigen::Vector3d n = Eigen::Vector3d(normal(rng), normal(rng), normal(rng)).normalized();
+    const Eigen::Vector3d centre(-7.5, 1000.5, 3.5);
+    PlaneGrid grid(1.0, kCriteria);
+    insert_plane(grid, centre, n, 50, 0.0, i);
+    grid.refit();
+    MapPlane plane;
+    ASSERT_TRUE(grid.find(centre, plane));
+    EXPECT_GT(std::abs(plane.normal.dot(n)), 1.0 - 1e-6);
+    EXPECT_NEAR(plane.normal.norm(), 1.0, 1e-6);
+    EXPECT_NEAR((plane.point - centre).dot(n), 0.0, 1e-5);
+    EXPECT_LT(plane.thickness_m, 1e-3F);
+  }
+}
+
+TEST(PlaneGridTest, NoisyPlaneHasItsThickness) {
+  constexpr double kNoise = 0.02;
+  PlaneGrid grid(1.0, PlaneCriteria{6, 2000, 0.1, 0.05});
+  const Eigen::Vector3d n = Eigen::Vector3d(1.0, 2.0, -0.5).normalized();
+  insert_plane(grid, {0.5, 0.5, 0.5}, n, 2000, kNoise, 2);
+  grid.refit();
+  MapPlane plane;
+  ASSERT_TRUE(grid.find({0.5, 0.5, 0.5}, plane));
+  EXPECT_NEAR(plane.thickness_m, kNoise, 0.002);
+  EXPECT_GT(std::abs(plane.normal.dot(n)), std::cos(0.02));
+  EXPECT_NEAR((plane.point - Eigen::Vector3d(0.5, 0.5, 0.5)).dot(n), 0.0, 0.002);
+}
+
+TEST(PlaneGridTest, LinesClumpsAndVolumesAreNoPlanes) {
+  PlaneGrid grid(1.0, kCriteria);
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> unit(0.05, 0.95);
+  for (int i = 0; i < 50; ++i) {
+    const double s = unit(rng);
+    grid.insert({s, 0.3 + 0.2 * s, 0.5});                                 // collinear
+    grid.insert({5.5, 0.5, 0.5});                                         // one place
+    grid.insert({10.0 + unit(rng), unit(rng), unit(rng)});                // volume
+    grid.insert({15.5 + 0.04 * unit(rng), 0.5 + 0.04 * unit(rng), 0.5});  // flat, too small to have a direction
+  }
+  grid.refit();
+  MapPlane plane;
+  for (const double x : {0.5, 5.5, 10.5, 15.5}) {
+    EXPECT_TRUE(grid.occupied({x, 0.5, 0.5})) << x;
+    EXPECT_FALSE(grid.find({x, 0.5, 0.5}, plane)) << x;
+  }
+}
+
+TEST(PlaneGridTest, TooFewPointsAreNoPlaneAndPlanesNeedARefit) {
+  PlaneGrid grid(1.0, kCriteria);
+  const Eigen::Vector3d centre(0.5, 0.5, 0.5);
+  MapPlane plane;
+  insert_plane(grid, centre, Eigen::Vector3d::UnitZ(), 5, 0.0, 4);
+  grid.refit();
+  EXPECT_FALSE(grid.find(centre, plane));
+  insert_plane(grid, centre, Eigen::Vector3d::UnitZ(), 1, 0.0, 5);
+  EXPECT_FALSE(grid.find(centre, plane));
+  grid.refit();
+  EXPECT_TRUE(grid.find(centre, plane));
+}
+
+TEST(PlaneGridTest, AFullVoxelTakesNoMore) {
+  PlaneGrid grid(1.0, PlaneCriteria{6, 20, 0.1, 0.05});
+  const Eigen::Vector3d centre(0.5, 0.5, 0.5);
+  insert_plane(grid, centre, Eigen::Vector3d::UnitZ(), 20, 0.0, 6);
+  std::vector<Eigen::Vector3f> before;
+  grid.centroids(before);
+  insert_plane(grid, {0.5, 0.5, 0.9}, Eigen::Vector3d::UnitZ(), 500, 0.0, 7);
+  grid.refit();
+  std::vector<Eigen::Vector3f> after;
+  grid.centroids(after);
+  EXPECT_EQ(before, after);
+  MapPlane plane;
+  ASSERT_TRUE(grid.find(centre, plane));
+  EXPECT_NEAR(plane.point.z(), 0.5, 1e-6);
+}
+
+TEST(PlaneGridTest, RefitFollowsTheEvidenceAndDropsAPlaneThatWasNone) {
+  PlaneGrid grid(1.0, kCriteria);
+  const Eigen::Vector3d centre(0.5, 0.5, 0.5);
+  insert_plane(grid, centre, Eigen::Vector3d::UnitZ(), 10, 0.0, 8);
+  grid.refit();
+  MapPlane plane;
+  ASSERT_TRUE(grid.find(centre, plane));
+  std::mt19937 rng(9);
+  std::uniform_real_distribution<double> unit(0.05, 0.95);
+  for (int i = 0; i < 80; ++i) {
+    grid.insert({unit(rng), unit(rng), unit(rng)});
+  }
+  grid.refit();
+  EXPECT_FALSE(grid.find(centre, plane));
+}
+
+TEST(PlaneGridTest, AWallOnAFaceIsFoundFromBothSides) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double wall : {-2.0, 0.0, 3.0}) {
+      Eigen::Vector3d centre = Eigen::Vector3d::Constant(0.5);
+      centre[axis] = wall;  // exactly on the face
+      PlaneGrid grid(1.0, kCriteria);
+      insert_plane(grid, centre, Eigen::Vector3d::Unit(axis), 50, 0.0, 10);
+      grid.refit();
+      for (const double off : {-0.19, -0.01, -1e-9, 0.0, 1e-9, 0.01, 0.19}) {
+        MapPlane plane;
+        ASSERT_TRUE(grid.find(centre + off * Eigen::Vector3d::Unit(axis), plane)) << axis << ' ' << wall << ' ' << off;
+        EXPECT_NEAR(plane.point[axis], wall, 1e-6);
+        EXPECT_NEAR(std::abs(plane.normal[axis]), 1.0, 1e-6);
+      }
+      MapPlane plane;
+      EXPECT_FALSE(grid.find(centre - 0.35 * Eigen::Vector3d::Unit(axis), plane));
+    }
+  }
+}
+
+TEST(PlaneGridTest, TheFallbackIsTheNearestFaceOnly) {
+  PlaneGrid grid(1.0, kCriteria);
+  insert_plane(grid, {0.5, 0.5, 0.5}, Eigen::Vector3d::UnitZ(), 50, 0.0, 11);
+  grid.refit();
+  MapPlane plane;
+  EXPECT_TRUE(grid.find({1.1, 0.5, 0.5}, plane));
+  EXPECT_TRUE(grid.find({0.5, -0.1, 0.5}, plane));
+  EXPECT_FALSE(grid.find({1.1, 0.05, 0.5}, plane));  // nearer to the face at y = 0
+  EXPECT_FALSE(grid.find({1.1, 1.1, 0.5}, plane));   // across an edge
+}
+
+TEST(PlaneGridTest, EvictionBeforeTheRefitLeavesNoHalfFittedVoxel) {
+  PlaneGrid grid(1.0, kCriteria);
+  insert_plane(grid, {100.5, 0.5, 0.5}, Eigen::Vector3d::UnitZ(), 10, 0.0, 12);
+  grid.evict(Eigen::Vector3d::Zero(), 10.0);
+  ASSERT_EQ(grid.size(), 0U);
+  insert_plane(grid, {0.5, 0.5, 0.5}, Eigen::Vector3d::UnitZ(), 5, 0.0, 13);  // takes the evicted voxel's place
+  grid.refit();
+  MapPlane plane;
+  EXPECT_FALSE(grid.find({0.5, 0.5, 0.5}, plane));
+}
+
+/// What the grid should hold: the voxels' point counts.
+class Model {
+ public:
+  using Key = std::tuple<int, int, int>;
+  void insert(const Eigen::Vector3d& p, double inverse) {
+    const VoxelIndex v = voxel_of(p, inverse);
+    ++voxels_[{v.x, v.y, v.z}];
+  }
+  std::map<Key, int>& voxels() { return voxels_; }
+  static Eigen::Vector3d centre(const Key& k, double voxel_m) {
+    return voxel_m * Eigen::Vector3d(std::get<0>(k) + 0.5, std::get<1>(k) + 0.5, std::get<2>(k) + 0.5);
+  }
+
+ private:
+  std::map<Key, int> voxels_;
+};
+
+void expect_same(const PlaneGrid& grid, Model& model) {
+  ASSERT_EQ(grid.size(), model.voxels().size());
+  for (const auto& [key, count] : model.voxels()) {
+    ASSERT_TRUE(grid.occupied(Model::centre(key, grid.voxel_m())));
+  }
+  std::vector<Eigen::Vector3f> centroids;
+  grid.centroids(centroids);
+  ASSERT_EQ(centroids.size(), model.voxels().size());
+}
+
+TEST(PlaneGridTest, InsertAndEvictAgreeWithAMap) {
+  constexpr double kVoxel = 0.5;
+  constexpr double kRadius = 12.0;
+  PlaneGrid grid(kVoxel, kCriteria);
+  Model model;
+  std::mt19937 rng(14);
+  std::normal_distribution<double> spread(0.0, 6.0);
+  std::uniform_int_distribution<int> inserts(0, 3000);
+  Eigen::Vector3d centre(-40.0, 0.0, 0.0);
+  for (int round = 0; round < 60; ++round) {
+    for (int i = inserts(rng); i > 0; --i) {
+      const Eigen::Vector3d p = centre + Eigen::Vector3d(spread(rng), spread(rng), 0.3 * spread(rng));
+      grid.insert(p);
+      model.insert(p, 1.0 / kVoxel);
+    }
+    grid.refit();
+    expect_same(grid, model);
+    centre.x() += 2.0;
+    // A slice may take far voxels only; a full round takes all of them.
+    grid.evict(centre, kRadius);
+    ASSERT_LE(grid.size(), model.voxels().size());
+    for (int i = 1; i < 32; ++i) {
+      grid.evict(centre, kRadius);
+    }
+    std::erase_if(model.voxels(),
+                  [&](const auto& v) { return (Model::centre(v.first, kVoxel) - centre).norm() > kRadius; });
+    expect_same(grid, model);
+  }
+  EXPECT_GT(grid.size(), 2048U);  // the table has grown beyond its first size
+}
+
+TEST(PlaneGridTest, PlanesSurviveTheGrowthOfTheTable) {
+  PlaneGrid grid(1.0, kCriteria);
+  insert_plane(grid, {0.5, 0.5, 0.5}, Eigen::Vector3d::UnitX(), 50, 0.0, 15);
+  grid.refit();
+  for (int x = -40; x < 40; ++x) {
+    for (int y = -40; y < 40; ++y) {
+      for (int z = 2; z < 5; ++z) {
+        grid.insert({x + 0.5, y + 0.5, z + 0.5});
+      }
+    }
+  }
+  EXPECT_EQ(grid.size(), 80U * 80U * 3U + 1U);
+  MapPlane plane;
+  ASSERT_TRUE(grid.find({0.5, 0.5, 0.5}, plane));
+  EXPECT_NEAR(std::abs(plane.normal.x()), 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace rilo

@@ -11,8 +11,8 @@
 namespace rilo {
 
 /// Constant-velocity motion of the sensor during a sweep, tabulated: the exponential is evaluated at a fixed number of
-/// instants, and the small rest to a point's own instant is linear. The error is below a tenth of a millimetre at 100 m
-/// and 360 °/s.
+/// instants, and the small rest to a point's own instant is of second order. The error is below a tenth of a millimetre
+/// at 100 m, 360 °/s and 30 m/s over a sweep of 0.1 s.
 class SweepMotion {
  public:
   /// `twist`: body velocity [rad/s; m/s]; `begin_s`, `end_s`: span of the offsets that will be asked for.
@@ -24,7 +24,8 @@ class SweepMotion {
     const int bin = static_cast<int>(position + 0.5F);
     const Knot& knot = knots_[static_cast<std::size_t>(bin < 0 ? 0 : (bin > last_ ? last_ : bin))];
     const float rest = offset_s - knot.offset_s;
-    const Eigen::Vector3f q = p + rest * (omega_.cross(p) + velocity_);
+    const Eigen::Vector3f rate = omega_.cross(p) + velocity_;
+    const Eigen::Vector3f q = p + rest * (rate + 0.5F * rest * omega_.cross(rate));
     return knot.R * q + knot.t;
   }
 

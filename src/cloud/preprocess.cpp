@@ -29,7 +29,9 @@ const PreparedSweep& Preprocessor::prepare(const Sweep& sweep) {
   crop(sweep);
   normalise_times(sweep);
   prepared_.valid_points = cropped_.size();
-  if (source_voxel_m_ <= 0.0) {
+  // A sweep without points says nothing about the scale: the next one is still the first.
+  const bool scale_unknown = source_voxel_m_ <= 0.0;
+  if (scale_unknown) {
     // The first sweep finds the scale of the place; a few rounds are enough because the count goes with about the
     // square.
     source_voxel_m_ = config_.max_voxel_m;
@@ -38,9 +40,12 @@ const PreparedSweep& Preprocessor::prepare(const Sweep& sweep) {
       adapt_voxel();
     }
   }
-  downsample(source_voxel_m_);
+  downsample(source_voxel_m_ > 0.0 ? source_voxel_m_ : config_.max_voxel_m);
   adapt_voxel();
   update_scene_range();
+  if (scale_unknown && cropped_.size() == 0) {
+    source_voxel_m_ = 0.0;
+  }
   return prepared_;
 }
 

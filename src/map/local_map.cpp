@@ -5,6 +5,23 @@
 
 namespace rilo {
 
+namespace {
+
+/// Whether `finer`, the next level, has points in the voxel of `coarse` that holds `p`. Its centroid alone does not
+/// tell: it may lie in the free space between them.
+bool seen_finer(const PlaneGrid& coarse, const PlaneGrid& finer, const Eigen::Vector3f& p) {
+  const VoxelIndex index = voxel_of(p, 1.0 / coarse.voxel_m());
+  for (int child = 0; child < 8; ++child) {
+    const Eigen::Vector3d corner(2 * index.x + (child & 1), 2 * index.y + (child >> 1 & 1), 2 * index.z + (child >> 2));
+    if (finer.occupied((corner + Eigen::Vector3d::Constant(0.5)) * finer.voxel_m())) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 LocalMap::LocalMap(const LocalMapConfig& config) : config_(config) { clear(); }
 
 void LocalMap::clear() {
@@ -63,8 +80,9 @@ std::vector<Eigen::Vector3f> LocalMap::points() const {
   for (std::size_t level = 0; level < grids_.size(); ++level) {
     std::vector<Eigen::Vector3f> centroids;
     grids_[level].centroids(centroids);
-    std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(out),
-                 [&](const Eigen::Vector3f& p) { return level == 0 || !grids_[level - 1].occupied(p.cast<double>()); });
+    std::copy_if(centroids.begin(), centroids.end(), std::back_inserter(out), [&](const Eigen::Vector3f& p) {
+      return level == 0 || !seen_finer(grids_[level], grids_[level - 1], p);
+    });
   }
   return out;
 }

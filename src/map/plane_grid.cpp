@@ -46,12 +46,9 @@ void PlaneGrid::refit() {
   std::sort(touched_.begin(), touched_.end());
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   for (const std::uint32_t id : touched_) {
-    // Evicted since it was touched, and maybe given to another place: fewer points than that are no plane.
-    if (pool_[id].count >= criteria_.min_points) {
-      // An eviction in between may have freed the place, and an insertion taken it anew.
-      if (!pool_[id].free && pool_[id].count >= criteria_.min_points) {
-        fit(pool_[id]);
-      }
+    // An eviction in between may have freed the place, and an insertion taken it anew.
+    if (!pool_[id].free && pool_[id].count >= criteria_.min_points) {
+      fit(pool_[id]);
     }
   }
   touched_.clear();

@@ -115,7 +115,9 @@ bool step(const NormalEquations& sums, const MotionPrior& prior, const AdaptiveI
     W.topLeftCorner<6, 6>() = select;
     W.bottomRightCorner<6, 6>() = select;
     H = (W.transpose() * H * W).eval();
-    b = (W.transpose() * b).eval();
+    // W carries the square root of the share: once for each side of H, twice for b. Once alone would make a faded
+    // direction overshoot by 1 / sqrt(share).
+    b = (W.transpose() * (W.transpose() * b)).eval();
   }
   H += prior.information;
   b -= prior.information * prior_error(prior, result.state);

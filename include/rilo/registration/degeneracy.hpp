@@ -19,7 +19,7 @@ struct PoseDegeneracy {
 /// rotation and mean translation weigh the same.
 PoseDegeneracy analyse_degeneracy(const Matrix6d& H);
 
-/// Matrix W (6×6; Hessian Wᵀ H W, gradient Wᵀ b) that fades out the directions whose relative eigenvalue
+/// Matrix W (6×6; Hessian Wᵀ H W, gradient Wᵀ Wᵀ b) that fades out the directions whose relative eigenvalue
 /// is small against `threshold`: eigenvalue λ keeps the share λ⁴ / (λ⁴ + threshold⁴). Identity when `threshold` is 0.
 Matrix6d soft_selection(const PoseDegeneracy& degeneracy, double threshold);
 

@@ -46,9 +46,7 @@ void for_each_index(std::size_t count, const Body& body) {
 inline constexpr std::size_t kChunkSize = 1024;
 
 /// Number of chunks that for_fixed_chunks cuts `count` items into.
-inline std::size_t chunk_count(std::size_t count) {
-  return (count + kChunkSize - 1) / kChunkSize;
-}
+inline std::size_t chunk_count(std::size_t count) { return (count + kChunkSize - 1) / kChunkSize; }
 
 /// Calls body(chunk, first, last) for consecutive chunks of kChunkSize items, in parallel. The cut depends on `count`
 /// alone: sums kept per chunk and added in the order of the chunks are the same bits for any number of threads.

@@ -23,7 +23,6 @@ void add_coarse(ConfigKeys& keys, CoarseRegistrationConfig& c) {
   keys.boolean("always", c.always, "true: on every sweep as in the paper; false: only when the prediction is in doubt");
   keys.real("voxel_m", c.voxel_m, 0.05, 10, "m", "voxel of its clouds");
   keys.integer("max_points", c.max_points, 10, 1000000, "", "at most that many points a cloud");
-  keys.integer("max_points", c.max_points, 10, 1000000, "", "at most that many points a cloud");
   keys.real("density_radius_m", c.density_radius_m, 0.05, 20, "m", "r: neighbours within it count as density (eq. 1)");
   keys.real("density_percentile", c.density_percentile, 0, 99, "%", "alpha: share of the least dense points dropped");
   keys.integer("neighbours", c.neighbours, 4, 100, "", "k of the covariances (eq. 2)");

@@ -34,6 +34,9 @@ void LocalMap::clear() {
 }
 
 void LocalMap::set_scene_range(double range_m) {
+  if (!(range_m > 0.0) || !std::isfinite(range_m)) {
+    return;  // a sweep without points tells nothing
+  }
   const double level = std::round(std::log2(range_m / (config_.scene_voxels * config_.voxel_m)));
   // The coarsest level alone would leave edges and small things out: the one below it is always in use.
   const double last = std::max(0.0, static_cast<double>(config_.levels) - 2.0);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "rilo/cloud/deskew.hpp"
@@ -22,6 +23,11 @@ namespace {
 constexpr std::int64_t kDefaultPeriodNs = 100'000'000;  // until two stamps are known
 constexpr std::size_t kStartSweeps = 3;                 // the prediction means nothing before
 constexpr int kFirstSweepRounds = 2;
+
+std::size_t workers(const OdometryConfig& config) {
+  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return std::max(allowed, static_cast<std::size_t>(std::max(config.threads, 0)));
+}
 }  // namespace
 
 class Odometry::Impl {
@@ -29,6 +35,7 @@ class Odometry::Impl {
   Impl(const OdometryConfig& config, Clock clock)
       : config_(config),
         clock_(std::move(clock)),
+        workers_(tbb::global_control::max_allowed_parallelism, workers(config)),
         arena_(config.threads > 0 ? config.threads : tbb::task_arena::automatic),
         preprocessor_(config.preprocess),
         initial_pose_(config.initial_pose, config.coarse),
@@ -51,7 +58,7 @@ class Odometry::Impl {
 
  private:
   SweepResult process(const Sweep& sweep);
-  SweepResult start(const PreparedSweep& prepared, SweepResult result);
+  void start(const PreparedSweep& prepared, SweepResult& result);
   void register_prepared(const PreparedSweep& prepared, SweepResult& result);
   IcpResult fine_registration(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init,
                               double dt_s, double sigma_th_m);
@@ -66,6 +73,7 @@ class Odometry::Impl {
 
   OdometryConfig config_;
   Clock clock_;
+  tbb::global_control workers_;  // more than the machine has, if so told
   tbb::task_arena arena_;
   Preprocessor preprocessor_;
   InitialPoseStage initial_pose_;
@@ -75,7 +83,9 @@ class Odometry::Impl {
   MotionState state_;
   Matrix6d velocity_covariance_ = unknown_velocity_covariance();
   Eigen::Vector3d last_step_ = Eigen::Vector3d::Zero();  // displacement of the last sweep, sensor frame
-  int lost_sweeps_ = 0;
+  std::size_t sweeps_in_map_ = 0;                        // so many were ever inserted
+  bool lost_ = false;                                    // the sweep before was
+  int lost_on_this_map_ = 0;                             // so many sweeps in a row
   TimedCloud first_cloud_;
   std::vector<Eigen::Vector3f> map_points_;
 };
@@ -91,8 +101,8 @@ SweepResult Odometry::Impl::process(const Sweep& sweep) {
   result.stats.points_source = prepared.source.size();
   result.stats.times.preprocess_ms = ms_since(mark);
   result.stamp_ns = usable_stamp(prepared.mid_stamp_ns);
-  if (trajectory_.empty()) {
-    result = start(prepared, result);
+  if (sweeps_in_map_ == 0) {
+    start(prepared, result);
   } else {
     register_prepared(prepared, result);
   }
@@ -105,13 +115,17 @@ SweepResult Odometry::Impl::process(const Sweep& sweep) {
   return result;
 }
 
-SweepResult Odometry::Impl::start(const PreparedSweep& prepared, SweepResult result) {
-  result.status = prepared.source.points.empty() ? OdometryStatus::kEmpty : OdometryStatus::kInitialising;
+void Odometry::Impl::start(const PreparedSweep& prepared, SweepResult& result) {
+  if (prepared.source.points.empty()) {
+    result.status = OdometryStatus::kEmpty;
+    return;
+  }
+  result.status = OdometryStatus::kInitialising;
   map_.set_scene_range(prepared.scene_range_m);
   first_cloud_ = prepared.map_cloud;
+  sweeps_in_map_ = 1;
   insert(prepared.map_cloud);
   initial_pose_.keep_target(prepared.source, state_.twist);
-  return result;
 }
 
 void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResult& result) {
@@ -128,7 +142,7 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
     result.status = OdometryStatus::kEmpty;
     return;
   }
-  const bool in_doubt = trajectory_.size() < kStartSweeps || lost_sweeps_ > 0;
+  const bool in_doubt = sweeps_in_map_ < kStartSweeps || lost_;
   const InitialPose init =
       initial_pose_.choose(prepared.source, predicted, trajectory_.back().T_odom_lidar, dt_s, map_, in_doubt);
   result.stats.initial_pose = init.source;
@@ -141,7 +155,7 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
 
   // Adaptive ICP (III-D).
   IcpResult icp = fine_registration(prepared, predicted, init, dt_s, sigma_th_m);
-  if (trajectory_.size() == 1) {
+  if (sweeps_in_map_ == 1) {
     icp = with_first_sweep_compensated(prepared, std::move(icp), dt_s, sigma_th_m);
   }
   result.stats.iterations = icp.iterations;
@@ -157,8 +171,7 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
   // Health, adaptive threshold (III-C) and local map.
   const double score = initial_pose_.score(prepared.source, icp.state, map_);
   result.stats.map_score = score;
-  result.status =
-      judge(icp, {prepared.source.size(), score, initial_pose_.usual_score(), lost_sweeps_ > 0}, config_.health);
+  result.status = judge(icp, {prepared.source.size(), score, initial_pose_.usual_score(), lost_}, config_.health);
   if (result.status == OdometryStatus::kLost) {
     lose(prepared, predicted, result);
   } else {
@@ -218,13 +231,15 @@ void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp,
   result.covariance = to_body * covariance.topLeftCorner<6, 6>() * to_body.transpose();
 
   const Eigen::Vector3d step = (previous.inverse() * state_.T_odom_lidar).translation();
-  if (trajectory_.size() >= 2) {
+  if (sweeps_in_map_ >= 2) {
     threshold_.update(T_init, state_.T_odom_lidar, step - last_step_);
     result.stats.gamma = threshold_.gamma();
     result.stats.deviation_m = threshold_.deviation_m();
   }
   last_step_ = step;
-  lost_sweeps_ = 0;
+  lost_ = false;
+  lost_on_this_map_ = 0;
+  ++sweeps_in_map_;
   initial_pose_.learn(score);
   initial_pose_.keep_target(prepared.source, state_.twist);
   insert(prepared.map_cloud);
@@ -235,10 +250,13 @@ void Odometry::Impl::lose(const PreparedSweep& prepared, const MotionState& pred
   velocity_covariance_ = unknown_velocity_covariance();
   result.covariance = unknown_velocity_covariance();
   threshold_.widen();
-  if (++lost_sweeps_ == config_.health.restart_after) {
+  lost_ = true;
+  if (++lost_on_this_map_ >= config_.health.restart_after && !prepared.source.points.empty()) {
     // The old map does not fit any more, and waiting longer will not help: go on from here.
+    lost_on_this_map_ = 0;
     map_.clear();
     initial_pose_.reset();
+    ++sweeps_in_map_;
     insert(prepared.map_cloud);
     initial_pose_.keep_target(prepared.source, state_.twist);
   }
@@ -273,7 +291,9 @@ void Odometry::Impl::reset() {
   state_ = MotionState{};
   velocity_covariance_ = unknown_velocity_covariance();
   last_step_.setZero();
-  lost_sweeps_ = 0;
+  sweeps_in_map_ = 0;
+  lost_ = false;
+  lost_on_this_map_ = 0;
   first_cloud_ = TimedCloud{};
   map_points_.clear();
 }

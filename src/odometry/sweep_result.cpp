@@ -54,8 +54,6 @@ std::string_view to_string(InitialPoseReason reason) {
       return "coarse_disabled";
     case InitialPoseReason::kCoarseNotNeeded:
       return "coarse_not_needed";
-    case InitialPoseReason::kCoarseFailed:
-      return "coarse_failed";
     case InitialPoseReason::kWithinTau:
       return "within_tau";
     case InitialPoseReason::kBeyondTau:

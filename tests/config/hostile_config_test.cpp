@@ -1,4 +1,5 @@
 // Whatever the bytes, a configuration is loaded or refused with a ConfigError.
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -24,6 +25,26 @@ TEST(HostileConfig, every_beginning_of_a_dump) {
   for (std::size_t length = 0; length < text.size(); length += 3) refused += is_taken(text.substr(0, length)) ? 0 : 1;
   EXPECT_GT(refused, 0U);
   EXPECT_TRUE(is_taken(text));
+}
+
+TEST(HostileConfig, a_dump_with_changed_bytes) {
+  std::mt19937 random(1);
+  const std::string text = dump_config({});
+  for (int round = 0; round < 1000; ++round) {
+    std::string broken = text;
+    for (int i = 0; i < 3; ++i) broken[random() % broken.size()] = static_cast<char>(random() % 256);
+    is_taken(broken);
+  }
+}
+
+TEST(HostileConfig, random_bytes_and_random_yaml_signs) {
+  std::mt19937 random(2);
+  const std::string signs = "{}[]:,-?&*!|>'\"%@`#~ \n\tab01.\\";
+  for (int round = 0; round < 5000; ++round) {
+    std::string bytes(random() % 60, ' ');
+    for (char& byte : bytes) byte = round % 2 == 0 ? static_cast<char>(random() % 256) : signs[random() % signs.size()];
+    is_taken(bytes);
+  }
 }
 
 TEST(HostileConfig, deep_nesting_aliases_tags_and_long_names) {

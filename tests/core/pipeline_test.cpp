@@ -157,6 +157,38 @@ TEST(Pipeline, ANewPlaceIsDeclaredLostAndThenMappedAnew) {
   EXPECT_EQ(seen.back(), OdometryStatus::kOk);
 }
 
+TEST(Pipeline, AnEmptySweepAtTheTimeOfTheRestartDoesNotLoseItForGood) {
+  OdometryConfig config;
+  Odometry odometry(config);
+  std::vector<OdometryStatus> seen;
+  for (int i = 0; i < 50; ++i) {
+    Sweep sweep = room_sweep(along_x(0.03 * i), 100'000'000LL * i);
+    if (i >= 10 && i < 10 + config.health.restart_after + 3) {
+      sweep.points.clear();
+    }
+    seen.push_back(odometry.register_sweep(sweep).status);
+  }
+  EXPECT_NE(std::find(seen.begin() + 23, seen.begin() + 35, OdometryStatus::kRecovered), seen.begin() + 35);
+  EXPECT_EQ(seen.back(), OdometryStatus::kOk);
+}
+
+TEST(Pipeline, EmptySweepsAtTheBeginningPostponeTheStart) {
+  Odometry odometry({});
+  for (int i = 0; i < 10; ++i) {
+    Sweep sweep = room_sweep(along_x(0.03 * (i - 3)), 100'000'000LL * i);
+    if (i < 3) {
+      sweep.points.clear();
+    }
+    const SweepResult result = odometry.register_sweep(sweep);
+    EXPECT_EQ(result.status, i < 3    ? OdometryStatus::kEmpty
+                             : i == 3 ? OdometryStatus::kInitialising
+                                      : OdometryStatus::kOk)
+        << i;
+    EXPECT_NEAR(result.T_odom_lidar.translation().x(), 0.03 * std::max(i - 3, 0), 0.02) << i;
+  }
+  EXPECT_EQ(odometry.trajectory().size(), 10U);
+}
+
 TEST(Pipeline, AWallOnTheBoundaryOfVoxelsIsSeen) {
   Odometry odometry({});
   for (int i = 0; i < 10; ++i) {

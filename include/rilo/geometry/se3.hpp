@@ -33,7 +33,8 @@ Matrix6d adjoint(const SE3& T);
 /// Pose between `a` (s = 0) and `b` (s = 1) along the geodesic a * exp(s * log(a^-1 b)); s outside [0, 1] extrapolates.
 SE3 interpolate(const SE3& a, const SE3& b, double s);
 
-/// The nearest rotation kept orthonormal: long products of poses lose orthonormality bit by bit.
+/// `T` with its rotation made orthonormal again (by way of the unit quaternion): long products of poses lose it bit by
+/// bit.
 SE3 renormalised(const SE3& T);
 
 /// Angle of the rotation of `T` (rad, 0 … pi).

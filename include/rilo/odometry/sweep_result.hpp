@@ -40,7 +40,6 @@ enum class InitialPoseReason : std::uint8_t {
   kFirstSweep,       ///< nothing to predict from
   kCoarseDisabled,   ///< only the prediction exists
   kCoarseNotNeeded,  ///< the prediction already explains the sweep: the coarse stage was not run
-  kCoarseFailed,     ///< the coarse stage did not converge
   kWithinTau,        ///< |t(T_pred^-1 T_align)| <= tau: coarse result taken (the paper's rule)
   kBeyondTau,        ///< farther than tau: prediction taken (the paper's rule)
   kBetterMapScore,   ///< the coarse result explains the local map better

@@ -80,8 +80,10 @@ TEST(PointGridTest, TheQueriesAreThePoints) {
 TEST(PointGridTest, LatticePointsHaveTiesTheSmallerIndexWins) {
   Points points;
   for (int i = 0; i < 6 * 6 * 6; ++i) {
-    points.emplace_back(static_cast<float>(i % 6 - 3), static_cast<float>(i / 6 % 6 - 3),
-                        static_cast<float>(i / 36 - 3));
+    const int x = i % 6;
+    const int y = i / 6 % 6;
+    const int z = i / 36;
+    points.emplace_back(static_cast<float>(x - 3), static_cast<float>(y - 3), static_cast<float>(z - 3));
   }
   std::shuffle(points.begin(), points.end(), std::mt19937(4));
   expect_equal_to_brute_force(points, points, 1.0, 2.0);

@@ -52,9 +52,9 @@ Eigen::Matrix4d series_exp(const Vector6d& xi) {
 }
 
 const std::vector<double>& angles() {
-  static const std::vector<double> list = {0.0,  1e-300, 1e-12, 1e-9, 9e-9, 1e-6,       9.99e-5,    1.001e-4,
-                                           1e-3, 0.01,   0.3,   1.0,  2.0,  kPi - 1e-3, kPi - 1e-6, kPi - 1e-9};
-  return list;
+  static const std::vector<double> kList = {0.0,  1e-300, 1e-12, 1e-9, 9e-9, 1e-6,       9.99e-5,    1.001e-4,
+                                            1e-3, 0.01,   0.3,   1.0,  2.0,  kPi - 1e-3, kPi - 1e-6, kPi - 1e-9};
+  return kList;
 }
 
 TEST_F(Se3Test, HatIsTheCrossProduct) {

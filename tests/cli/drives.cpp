@@ -7,25 +7,25 @@ namespace rilo::test {
 namespace fs = std::filesystem;
 
 const fs::path& shared_drive() {
-  static const TempDir folder;
-  static const fs::path drive = [] {
-    fs::path made = folder / "drive";
+  static const TempDir kFolder;
+  static const fs::path kDrive = [] {
+    fs::path made = kFolder / "drive";
     const Outcome outcome = rilo_command({"simulate", "--out", made, "--sensor", "vlp16", "--start", "10", "--sweeps",
                                           std::to_string(kDriveSweeps), "--quiet"});
     if (outcome.exit_code != 0) throw std::runtime_error("no drive: " + outcome.err);
     return made;
   }();
-  return drive;
+  return kDrive;
 }
 
 fs::path copy_of_drive(const TempDir& folder) {
-  fs::path copy = folder / "drive";
+  fs::path copy = kFolder / "drive";
   fs::copy(shared_drive(), copy, fs::copy_options::recursive);
   return copy;
 }
 
 fs::path long_folder(const TempDir& folder, std::size_t sweeps) {
-  fs::path made = folder / "long";
+  fs::path made = kFolder / "long";
   fs::create_directory(made);
   constexpr std::size_t kPeriod = 2 * (kDriveSweeps - 1);
   for (std::size_t i = 0; i < sweeps; ++i) {

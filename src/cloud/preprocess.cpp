@@ -10,19 +10,6 @@ namespace {
 constexpr int kFirstRounds = 3;
 constexpr double kSceneSmoothing = 0.1;  // about a second at 10 Hz
 
-void gather(const TimedCloud& from, const std::vector<std::uint32_t>& indices, TimedCloud& to) {
-  to.points.clear();
-  to.offsets_s.clear();
-  for (const std::uint32_t i : indices) {
-    to.points.push_back(from.points[i]);
-  }
-  if (from.timed()) {
-    for (const std::uint32_t i : indices) {
-      to.offsets_s.push_back(from.offsets_s[i]);
-    }
-  }
-}
-
 }  // namespace
 
 const PreparedSweep& Preprocessor::prepare(const Sweep& sweep) {
@@ -66,9 +53,8 @@ void Preprocessor::update_scene_range() {
 
 void Preprocessor::downsample(double source_voxel_m) {
   const double map_voxel = config_.map_voxel_ratio * source_voxel_m;
-  gather(cropped_, map_sampler_.sample(cropped_.points, map_voxel), prepared_.map_cloud);
-  const TimedCloud& dense = prepared_.map_cloud;
-  gather(dense, source_sampler_.sample(dense.points, source_voxel_m), prepared_.source);
+  map_mean_.average(cropped_, map_voxel, prepared_.map_cloud);
+  source_mean_.average(prepared_.map_cloud, source_voxel_m, prepared_.source);
 }
 
 void Preprocessor::adapt_voxel() {

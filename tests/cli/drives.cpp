@@ -19,13 +19,13 @@ const fs::path& shared_drive() {
 }
 
 fs::path copy_of_drive(const TempDir& folder) {
-  fs::path copy = kFolder / "drive";
+  fs::path copy = folder / "drive";
   fs::copy(shared_drive(), copy, fs::copy_options::recursive);
   return copy;
 }
 
 fs::path long_folder(const TempDir& folder, std::size_t sweeps) {
-  fs::path made = kFolder / "long";
+  fs::path made = folder / "long";
   fs::create_directory(made);
   constexpr std::size_t kPeriod = 2 * (kDriveSweeps - 1);
   for (std::size_t i = 0; i < sweeps; ++i) {

@@ -7,7 +7,7 @@
 #include "rilo/cloud/preprocess_config.hpp"
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/cloud/timed_cloud.hpp"
-#include "rilo/cloud/voxel_sampler.hpp"
+#include "rilo/cloud/voxel_mean.hpp"
 
 namespace rilo {
 
@@ -15,8 +15,8 @@ namespace rilo {
 struct PreparedSweep {
   std::int64_t mid_stamp_ns = 0;  ///< reference instant of the sweep's pose
   std::size_t valid_points = 0;   ///< finite and within range
-  TimedCloud map_cloud;           ///< one point per map voxel
-  TimedCloud source;              ///< S, one point per source voxel, a subset of map_cloud
+  TimedCloud map_cloud;           ///< one point per map voxel, the mean of its points
+  TimedCloud source;              ///< S, one point per source voxel, the mean of its points
   double scene_range_m = 0;       ///< median range of S, smoothed over the sweeps: how large the place is
 };
 
@@ -41,8 +41,8 @@ class Preprocessor {
   TimedCloud cropped_;
   PreparedSweep prepared_;
   std::vector<float> ranges_;
-  VoxelSampler map_sampler_;
-  VoxelSampler source_sampler_;
+  VoxelMean map_mean_;
+  VoxelMean source_mean_;
   double source_voxel_m_ = 0;  // 0: no sweep has been seen
   // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its
   // seam, and the reference instant must not.

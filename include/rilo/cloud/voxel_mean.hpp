@@ -1,0 +1,38 @@
+// Voxel downsampling: the mean of the points of every voxel.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rilo/cloud/timed_cloud.hpp"
+
+namespace rilo {
+
+/// Replaces the points of each voxel by their mean, at their mean offset. On a plane the mean lies in the plane, with
+/// the noise of one point divided by the root of their number, and over several beams: what a subset would throw away.
+/// The table of visited voxels is reused from call to call. Points must be finite.
+class VoxelMean {
+ public:
+  /// Writes one point per voxel of `voxel_m` to `out`, in the order in which the voxels first appear in `in`. Points
+  /// count as often as `in.counts` says. Points of the two halves of a sweep are kept apart: where a turn of the sensor
+  /// begins and ends, those of one place may lie a whole turn apart in time. `out` must not be `in`.
+  void average(const TimedCloud& in, double voxel_m, TimedCloud& out);
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t generation = 0;  // the slot is taken when this equals generation_
+    std::uint32_t number = 0;      // of the voxel's point in the result
+  };
+  void prepare(std::size_t count);
+  std::uint32_t number_of(std::uint64_t key, std::uint32_t next);
+
+  std::vector<Slot> slots_;
+  std::uint32_t generation_ = 0;
+  // Sums relative to a voxel's first point: exact in single precision however many there are. x, y, z, offset.
+  std::vector<Eigen::Vector4f> sums_;
+};
+
+}  // namespace rilo

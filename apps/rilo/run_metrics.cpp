@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -83,6 +84,24 @@ nlohmann::json counts(const RunRecord& run) {
           {"mean_iterations", iterations / std::max<double>(1.0, static_cast<double>(run.results.size()))}};
 }
 
+/// What the run found out about the sensor's elevation angles; the correction given on the command line comes on top.
+nlohmann::json elevation(const RunRecord& run) {
+  nlohmann::json figures = {{"elevation_offset_deg", nullptr},
+                            {"elevation_offset_sigma_deg", nullptr},
+                            {"elevation_offset_applied_deg", 0.0}};
+  if (run.results.empty() || !run.config.elevation.enabled) {
+    return figures;
+  }
+  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+  const SweepStats& last = run.results.back().stats;
+  if (std::isfinite(last.elevation_offset_sigma_rad)) {
+    figures["elevation_offset_deg"] = kDegPerRad * last.elevation_offset_rad;
+    figures["elevation_offset_sigma_deg"] = kDegPerRad * last.elevation_offset_sigma_rad;
+  }
+  figures["elevation_offset_applied_deg"] = kDegPerRad * last.elevation_applied_rad;
+  return figures;
+}
+
 }  // namespace
 
 nlohmann::json run_metrics(const RunRecord& run) {
@@ -107,6 +126,7 @@ nlohmann::json run_metrics(const RunRecord& run) {
       {"warnings", run.source.warnings},
   };
   metrics.update(counts(run));
+  metrics.update(elevation(run));
   if (!run.error.empty()) {
     metrics["error"] = run.error;
   }
@@ -143,6 +163,11 @@ std::string run_summary(const nlohmann::json& m) {
   text += fmt::format("\nposes at        {} of the sweep; point times: {}; elevation correction {} deg\n",
                       m["pose_instant"].get<std::string>(), m["point_times"].get<std::string>(),
                       m["elevation_correction_deg"].get<double>());
+  if (!m["elevation_offset_deg"].is_null()) {
+    text += fmt::format("elevation error {:+.3f} ± {:.3f} deg found; {:+.3f} corrected\n",
+                        m["elevation_offset_deg"].get<double>(), m["elevation_offset_sigma_deg"].get<double>(),
+                        m["elevation_offset_applied_deg"].get<double>());
+  }
   if (m.contains("evaluation")) {
     const auto& e = m["evaluation"];
     text += fmt::format("against truth   APE {:.4f} m aligned, {:.4f} m unaligned; path {:.1f} m",

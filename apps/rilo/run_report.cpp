@@ -38,6 +38,13 @@ std::string compensation_of(const RunRecord& run) {
   return run.source.has_point_times ? "on" : "off (no point times)";
 }
 
+std::string elevation_of(const nlohmann::json& metrics) {
+  if (metrics["elevation_offset_deg"].is_null()) return "not estimated";
+  return fmt::format("{:+.3f} ± {:.3f}°, {:+.3f}° corrected", metrics["elevation_offset_deg"].get<double>(),
+                     metrics["elevation_offset_sigma_deg"].get<double>(),
+                     metrics["elevation_offset_applied_deg"].get<double>());
+}
+
 void add_facts(const RunRecord& run, const nlohmann::json& metrics, RunReport& report) {
   report.facts = {{"Command", run.command_line},
                   {"Rilo", metrics["rilo_version"].get<std::string>()},
@@ -47,6 +54,7 @@ void add_facts(const RunRecord& run, const nlohmann::json& metrics, RunReport& r
                   {"Point times", valid_utf8(run.source.point_times)},
                   {"Motion compensation", compensation_of(run)},
                   {"Elevation correction", fmt::format("{}°", run.source.elevation_correction_deg)},
+                  {"Elevation error found", elevation_of(metrics)},
                   {"Time measured", metrics["ms_note"].get<std::string>()}};
   if (run.truth) {
     report.facts.emplace_back("Ground truth", valid_utf8(run.truth->file + " (" + run.truth->instant + ")"));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rilo/cloud/elevation.hpp"
+
 namespace rilo {
 
 namespace {
@@ -67,6 +69,7 @@ void Preprocessor::adapt_voxel() {
 }
 
 void Preprocessor::reset() {
+  elevation_offset_rad_ = 0.0;
   span_known_ = false;
   source_voxel_m_ = 0.0;
   prepared_.scene_range_m = 0.0;
@@ -76,6 +79,8 @@ void Preprocessor::crop(const Sweep& sweep) {
   const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
   const auto min2 = static_cast<float>(config_.min_range_m * config_.min_range_m);
   const auto max2 = static_cast<float>(config_.max_range_m * config_.max_range_m);
+  const bool turned = elevation_offset_rad_ != 0.0;
+  const ElevationTurn turn(elevation_offset_rad_);
   cropped_.points.clear();
   cropped_.offsets_s.clear();
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
@@ -84,7 +89,7 @@ void Preprocessor::crop(const Sweep& sweep) {
     if (!(range2 >= min2 && range2 <= max2) || (timed && !std::isfinite(sweep.times_s[i]))) {
       continue;
     }
-    cropped_.points.push_back(sweep.points[i]);
+    cropped_.points.push_back(turned ? turn(sweep.points[i]) : sweep.points[i]);
     if (timed) {
       cropped_.offsets_s.push_back(sweep.times_s[i]);
     }

@@ -110,6 +110,15 @@ void add_map(ConfigKeys& keys, LocalMapConfig& c) {
   keys.real("min_extent", c.min_extent, 0, 1, "voxels", "smallest middle standard deviation of a plane");
 }
 
+void add_elevation(ConfigKeys& keys, ElevationOffsetConfig& c) {
+  keys.section("elevation", "Constant error of the sensor's elevation angles, found from the sweeps alone");
+  keys.boolean("enabled", c.enabled, "estimate it, and correct it once it is certain");
+  keys.real("significance", c.significance, 0, 1000, "",
+            "certain when so many standard deviations from zero; 1000: never, estimate only");
+  keys.real("least_deg", c.least_deg, 0, 10, "deg", "smaller errors are not corrected");
+  keys.real("step_deg", c.step_deg, 0.0001, 1, "deg", "the correction moves by at most this from sweep to sweep");
+}
+
 void add_health(ConfigKeys& keys, HealthConfig& c) {
   keys.section("health", "When a pose is called degenerate, poorly supported or lost");
   keys.real("lost_share", c.lost_share, 0, 1, "", "lost when the map score falls below this share of the usual one");
@@ -133,6 +142,7 @@ ConfigKeys odometry_keys(OdometryConfig& c) {
   add_threshold(keys, c.threshold);
   add_icp(keys, c.icp);
   add_map(keys, c.map);
+  add_elevation(keys, c.elevation);
   add_health(keys, c.health);
   return keys;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rilo/cloud/elevation.hpp"
+
 namespace rilo {
 
 namespace {
@@ -43,15 +45,23 @@ void LocalMap::set_scene_range(double range_m) {
   finest_ = static_cast<std::size_t>(std::clamp(level, 0.0, last));
 }
 
-void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar) {
+void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar, const RigidLever& pose) {
+  const Eigen::Matrix3f R = T_odom_lidar.linear().cast<float>();
   for (const Eigen::Vector3f& p : points) {
     const Eigen::Vector3d world = T_odom_lidar * p.cast<double>();
+    const Eigen::Vector3f lever = R * elevation_lever(p) + pose.at(world).cast<float>();
     for (std::size_t level = finest_; level < grids_.size(); ++level) {
-      grids_[level].insert(world);
+      grids_[level].insert(world, lever);
     }
   }
   for (PlaneGrid& grid : grids_) {
     grid.refit();
+  }
+}
+
+void LocalMap::turn_elevation(double angle_rad, const RigidLever& sensor) {
+  for (PlaneGrid& grid : grids_) {
+    grid.turn_elevation(angle_rad, sensor);
   }
 }
 

@@ -19,7 +19,7 @@ Eigen::Vector3d PlaneGrid::centre_of(const VoxelIndex& index) const {
   return voxel_m_ * Eigen::Vector3d(index.x + 0.5, index.y + 0.5, index.z + 0.5);
 }
 
-void PlaneGrid::insert(const Eigen::Vector3d& p) {
+void PlaneGrid::insert(const Eigen::Vector3d& p, const Eigen::Vector3f& elevation_lever) {
   const VoxelIndex index = voxel_of(p, inverse_);
   const std::uint32_t id = find_or_add(index);
   Voxel& voxel = pool_[id];
@@ -28,6 +28,7 @@ void PlaneGrid::insert(const Eigen::Vector3d& p) {
   }
   const Eigen::Vector3f d = (p - centre_of(index)).cast<float>();
   voxel.sum += d;
+  voxel.lever_sum += elevation_lever;
   voxel.squares[0] += d.x() * d.x();
   voxel.squares[1] += d.x() * d.y();
   voxel.squares[2] += d.x() * d.z();
@@ -39,6 +40,29 @@ void PlaneGrid::insert(const Eigen::Vector3d& p) {
   if (voxel.count >= criteria_.min_points && 2 * voxel.count >= 3 * voxel.fitted_count) {
     touched_.push_back(id);
     voxel.fitted_count = voxel.count;
+  }
+}
+
+void PlaneGrid::turn_elevation(double angle_rad, const RigidLever& sensor) {
+  for (Voxel& voxel : pool_) {
+    if (voxel.count == 0) {
+      continue;
+    }
+    // Every point moves by the mean: what differs between them is of second order.
+    const auto n = static_cast<float>(voxel.count);
+    const Eigen::Vector3d centroid = centre_of(voxel.index) + (voxel.sum / n).cast<double>();
+    const Eigen::Vector3f own = sensor.at(centroid).cast<float>();
+    const Eigen::Vector3f shift = static_cast<float>(angle_rad) * (voxel.lever_sum / n - own);
+    const Eigen::Matrix3f moved = voxel.sum * shift.transpose();
+    const Eigen::Matrix3f change = moved + moved.transpose() + n * shift * shift.transpose();
+    voxel.squares[0] += change(0, 0);
+    voxel.squares[1] += change(0, 1);
+    voxel.squares[2] += change(0, 2);
+    voxel.squares[3] += change(1, 1);
+    voxel.squares[4] += change(1, 2);
+    voxel.squares[5] += change(2, 2);
+    voxel.sum += n * shift;
+    voxel.mean += shift;
   }
 }
 
@@ -101,6 +125,7 @@ bool PlaneGrid::plane_of(const VoxelIndex& index, MapPlane& plane) const {
   plane.point = centre_of(index) + voxel.mean.cast<double>();
   plane.normal = voxel.normal.cast<double>();
   plane.thickness_m = voxel.thickness;
+  plane.elevation_lever = voxel.lever_sum / static_cast<float>(voxel.count);
   return true;
 }
 

@@ -16,6 +16,7 @@
 #include "rilo/odometry/motion_prediction.hpp"
 #include "rilo/odometry/motion_prior.hpp"
 #include "rilo/registration/adaptive_icp.hpp"
+#include "rilo/registration/elevation_offset.hpp"
 
 namespace rilo {
 
@@ -23,6 +24,7 @@ namespace {
 constexpr std::int64_t kDefaultPeriodNs = 100'000'000;  // until two stamps are known
 constexpr std::size_t kStartSweeps = 3;                 // the prediction means nothing before
 constexpr int kFirstSweepRounds = 2;
+constexpr std::size_t kElevationStride = 4;
 
 std::size_t workers(const OdometryConfig& config) {
   const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
@@ -40,7 +42,8 @@ class Odometry::Impl {
         preprocessor_(config.preprocess),
         initial_pose_(config.initial_pose, config.coarse),
         threshold_(config.threshold),
-        map_(config.map) {
+        map_(config.map),
+        elevation_(config.elevation) {
     validate(config);
   }
 
@@ -65,6 +68,7 @@ class Odometry::Impl {
   IcpResult with_first_sweep_compensated(const PreparedSweep& prepared, IcpResult icp, double dt_s, double sigma_th_m);
   void accept(const PreparedSweep& prepared, const IcpResult& icp, const SE3& T_init, double score,
               SweepResult& result);
+  void learn_elevation(const PreparedSweep& prepared, const IcpResult& icp, bool sound);
   void lose(const PreparedSweep& prepared, const MotionState& predicted, SweepResult& result);
   void insert(const TimedCloud& cloud);
   std::int64_t usable_stamp(std::int64_t stamp_ns) const;
@@ -79,6 +83,8 @@ class Odometry::Impl {
   InitialPoseStage initial_pose_;
   AdaptiveThreshold threshold_;
   LocalMap map_;
+  ElevationOffsetEstimator elevation_;
+  RigidLever elevation_lever_;  // how the last pose moves with the sensor's elevation angles
   Trajectory trajectory_;
   MotionState state_;
   Matrix6d velocity_covariance_ = unknown_velocity_covariance();
@@ -109,6 +115,9 @@ SweepResult Odometry::Impl::process(const Sweep& sweep) {
   result.T_odom_lidar = state_.T_odom_lidar;
   result.twist = state_.twist;
   result.stats.map_voxels = map_.size();
+  result.stats.elevation_offset_rad = elevation_.offset_rad();
+  result.stats.elevation_offset_sigma_rad = elevation_.sigma_rad();
+  result.stats.elevation_applied_rad = elevation_.applied_rad();
   trajectory_.push_back({result.stamp_ns, state_.T_odom_lidar});
   mark = begin;
   result.stats.times.total_ms = ms_since(mark);
@@ -237,12 +246,30 @@ void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp,
     result.stats.deviation_m = threshold_.deviation_m();
   }
   last_step_ = step;
+  if (config_.elevation.enabled) {
+    learn_elevation(prepared, icp, result.status == OdometryStatus::kOk);
+  }
   lost_ = false;
   lost_on_this_map_ = 0;
   ++sweeps_in_map_;
   initial_pose_.learn(score);
   initial_pose_.keep_target(prepared.source, state_.twist);
   insert(prepared.map_cloud);
+}
+
+void Odometry::Impl::learn_elevation(const PreparedSweep& prepared, const IcpResult& icp, bool sound) {
+  const ElevationInformation sweep = elevation_information(prepared.source, map_, icp, threshold_.sigma_th_m(),
+                                                           config_.icp, elevation_lever_, kElevationStride);
+  elevation_lever_ = sweep.pose;
+  if (!sound || sweeps_in_map_ < kStartSweeps) {
+    return;
+  }
+  elevation_.add(sweep);
+  const double change = elevation_.advance();
+  if (change != 0.0) {
+    map_.turn_elevation(change, elevation_lever_);
+    preprocessor_.set_elevation_offset(elevation_.applied_rad());
+  }
 }
 
 void Odometry::Impl::lose(const PreparedSweep& prepared, const MotionState& predicted, SweepResult& result) {
@@ -264,7 +291,7 @@ void Odometry::Impl::lose(const PreparedSweep& prepared, const MotionState& pred
 
 void Odometry::Impl::insert(const TimedCloud& cloud) {
   deskew(cloud, state_.twist, map_points_);
-  map_.insert(map_points_, state_.T_odom_lidar);
+  map_.insert(map_points_, state_.T_odom_lidar, elevation_lever_);
   map_.evict(state_.T_odom_lidar.translation());
 }
 
@@ -286,6 +313,8 @@ void Odometry::Impl::reset() {
   preprocessor_.reset();
   initial_pose_.reset();
   threshold_.reset();
+  elevation_.reset();
+  elevation_lever_ = {};
   map_.clear();
   trajectory_.clear();
   state_ = MotionState{};

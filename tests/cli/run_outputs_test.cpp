@@ -51,6 +51,9 @@ void expect_metrics(const json& metrics) {
   EXPECT_EQ(metrics["interrupted"], false);
   EXPECT_EQ(metrics["bad_sweeps"], 0);
   EXPECT_EQ(metrics["elevation_correction_deg"], 0.0);
+  EXPECT_TRUE(metrics.contains("elevation_offset_deg"));
+  EXPECT_TRUE(metrics.contains("elevation_offset_sigma_deg"));
+  EXPECT_EQ(metrics["elevation_offset_applied_deg"], 0.0);
   EXPECT_EQ(metrics["motion_compensation"], true);
   EXPECT_EQ(metrics["warnings"], json::array());
   std::size_t sweeps = 0;

@@ -53,6 +53,7 @@ TEST(ConfigKeys, every_field_of_every_stage_has_a_key) {
   EXPECT_EQ(counts["threshold"], field_count<AdaptiveThresholdConfig>());
   EXPECT_EQ(counts["icp"], field_count<AdaptiveIcpConfig>());
   EXPECT_EQ(counts["map"], field_count<LocalMapConfig>());
+  EXPECT_EQ(counts["elevation"], field_count<ElevationOffsetConfig>());
   EXPECT_EQ(counts["health"], field_count<HealthConfig>());
   EXPECT_EQ(counts[""], 1U);                                         // threads
   EXPECT_EQ(keys.sections().size(), field_count<OdometryConfig>());  // a stage each, and the section of threads

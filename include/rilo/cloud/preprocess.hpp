@@ -28,6 +28,9 @@ class Preprocessor {
   /// The result is valid until the next call.
   const PreparedSweep& prepare(const Sweep& sweep);
 
+  /// Angle (rad) added to the elevation angle of every point from now on.
+  void set_elevation_offset(double offset_rad) { elevation_offset_rad_ = offset_rad; }
+
   void reset();
 
  private:
@@ -44,6 +47,7 @@ class Preprocessor {
   VoxelMean map_mean_;
   VoxelMean source_mean_;
   double source_voxel_m_ = 0;  // 0: no sweep has been seen
+  double elevation_offset_rad_ = 0;
   // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its
   // seam, and the reference instant must not.
   bool span_known_ = false;

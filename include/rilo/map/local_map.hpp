@@ -20,8 +20,13 @@ class LocalMap {
   /// small voxels hold too few points of too few beams. Sets the finest level that insert and find work on from now on.
   void set_scene_range(double range_m);
 
-  /// Adds points of the sensor frame at the pose `T_odom_lidar`, then fits the planes that changed.
-  void insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar);
+  /// Adds points of the sensor frame at the pose `T_odom_lidar`, then fits the planes that changed. `pose`: how that
+  /// pose moved with the sensor's elevation angles.
+  void insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar, const RigidLever& pose = {});
+
+  /// Moves what is in the map as if the sensor's elevation angles had been larger by `angle_rad`, a small angle, seen
+  /// from a sensor that moves with them by `sensor`.
+  void turn_elevation(double angle_rad, const RigidLever& sensor);
 
   /// Drops voxels far from `centre` (odometry frame), a slice per call.
   void evict(const Eigen::Vector3d& centre);

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "rilo/geometry/voxel_key.hpp"
+#include "rilo/map/rigid_lever.hpp"
 
 namespace rilo {
 
@@ -23,6 +24,8 @@ struct MapPlane {
   Eigen::Vector3d point;   ///< centroid (m)
   Eigen::Vector3d normal;  ///< unit
   float thickness_m = 0;   ///< standard deviation along the normal
+  /// How the centroid moves with the sensor's elevation angles, m/rad: mean over its points.
+  Eigen::Vector3f elevation_lever = Eigen::Vector3f::Zero();
 };
 
 /// Voxels in a flat open-addressing hash; the voxels themselves lie in a pool. A voxel's plane is fitted on insertion,
@@ -31,7 +34,12 @@ class PlaneGrid {
  public:
   PlaneGrid(double voxel_m, const PlaneCriteria& criteria);
 
-  void insert(const Eigen::Vector3d& p);
+  /// Adds a point. `elevation_lever`: how it moves with the sensor's elevation angles (m/rad).
+  void insert(const Eigen::Vector3d& p, const Eigen::Vector3f& elevation_lever = Eigen::Vector3f::Zero());
+
+  /// Moves all points as if the sensor's elevation angles had been larger by `angle_rad`, a small angle, seen from a
+  /// sensor that moves with them.
+  void turn_elevation(double angle_rad, const RigidLever& sensor);
 
   /// Fits the planes of the voxels touched since the last call.
   void refit();
@@ -65,6 +73,7 @@ class PlaneGrid {
     // Moments about the voxel's centre, in m: single precision is exact enough because the lever is short.
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     Eigen::Matrix<float, 6, 1> squares = Eigen::Matrix<float, 6, 1>::Zero();  // xx xy xz yy yz zz
+    Eigen::Vector3f lever_sum = Eigen::Vector3f::Zero();                      // of the points' elevation levers
     Eigen::Vector3f mean = Eigen::Vector3f::Zero();                           // at the last fit
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     float thickness = -1.0F;  // negative: no plane

@@ -10,6 +10,7 @@
 #include "rilo/odometry/motion_prior_config.hpp"
 #include "rilo/registration/adaptive_icp_config.hpp"
 #include "rilo/registration/coarse_registration_config.hpp"
+#include "rilo/registration/elevation_offset_config.hpp"
 
 namespace rilo {
 
@@ -24,6 +25,7 @@ struct OdometryConfig {
   AdaptiveThresholdConfig threshold;
   AdaptiveIcpConfig icp;
   LocalMapConfig map;
+  ElevationOffsetConfig elevation;
   HealthConfig health;
 };
 

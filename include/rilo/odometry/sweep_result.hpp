@@ -79,6 +79,9 @@ struct SweepStats {
   double gamma = 1;                              ///< γ_i, steadiness of the motion (III-C)
   double deviation_m = 0;                        ///< e_i, model deviation (III-C)
   std::array<double, 6> relative_eigenvalues{};  ///< of the information matrix, ascending, largest = 1
+  double elevation_offset_rad = 0;               ///< estimate of the angle that the sensor's elevation angles lack
+  double elevation_offset_sigma_rad = 0;         ///< its standard deviation; infinite before there is one
+  double elevation_applied_rad = 0;              ///< angle added to those of the next sweep
   StageTimes times;
 };
 

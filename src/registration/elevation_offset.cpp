@@ -1,0 +1,175 @@
+#include "rilo/registration/elevation_offset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+
+#include "cloud/fixed_chunks.hpp"
+#include "rilo/cloud/deskew.hpp"
+#include "rilo/cloud/elevation.hpp"
+
+namespace rilo {
+
+namespace {
+
+constexpr std::size_t kSweepsPerBlock = 5;  // half a second: the map's errors are shared by neighbouring sweeps
+constexpr std::size_t kLeastBlocks = 3;
+// Noise in the levers weakens the response to about this share of what it should be; measured on real and simulated
+// drives. It sets how fast the estimate is found, not what it ends at: there the gradient is zero.
+constexpr double kResponse = 0.65;
+// What the residuals of a surface share whatever their number: errors of single beams, rounded edges.
+constexpr double kSystematicM = 0.002;
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+/// Sums of the mixed terms of δ with pose and velocity, and of δ alone.
+struct Sums {
+  Vector12d mixed = Vector12d::Zero();
+  double square = 0;
+  double gradient = 0;
+  double weight = 0;
+  double squared_error = 0;
+
+  void operator+=(const Sums& other) {
+    mixed += other.mixed;
+    square += other.square;
+    gradient += other.gradient;
+    weight += other.weight;
+    squared_error += other.squared_error;
+  }
+};
+
+}  // namespace
+
+ElevationInformation elevation_information(const TimedCloud& source, const LocalMap& map, const IcpResult& icp,
+                                           double sigma_th_m, const AdaptiveIcpConfig& config, const RigidLever& last,
+                                           std::size_t stride) {
+  std::vector<Eigen::Vector3f> points;
+  deskew(source, icp.state.twist, points);
+  const Eigen::Matrix3d R = icp.state.T_odom_lidar.linear();
+  const Eigen::Vector3d t = icp.state.T_odom_lidar.translation();
+  const double sigma2 = sigma_th_m * sigma_th_m;
+  const double gate = config.gate * sigma_th_m;
+  const std::size_t count = (points.size() + stride - 1) / stride;
+  std::vector<Sums> partial(chunk_count(count));
+  for_fixed_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    Sums& sum = partial[chunk];
+    MapPlane plane;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = k * stride;
+      const Eigen::Vector3d lever = R * points[i].cast<double>();
+      const Eigen::Vector3d world = lever + t;
+      if (!map.find(world, plane)) {
+        continue;
+      }
+      const double e = plane.normal.dot(world - plane.point);
+      if (std::abs(e) > gate) {
+        continue;
+      }
+      const double w = sigma2 / (sigma2 + e * e);
+      // Relative to a sensor that goes on moving with δ as the last pose did; the whole plane moves, so that its own
+      // point counts.
+      const Eigen::Vector3d moves =
+          R * elevation_lever(points[i]).cast<double>() + last.at(plane.point) - plane.elevation_lever.cast<double>();
+      const double c = plane.normal.dot(moves);  // ∂e/∂δ
+      Vector6d J;
+      J << lever.cross(plane.normal), plane.normal;
+      sum.mixed.head<6>() += w * c * J;
+      if (source.timed() && config.refine_motion) {
+        sum.mixed.tail<6>() += (w * c * static_cast<double>(source.offsets_s[i])) * J;
+      }
+      sum.square += w * c * c;
+      sum.gradient -= w * c * e;
+      sum.weight += w;
+      sum.squared_error += w * e * e;
+    }
+  });
+  Sums total;
+  for (const Sums& sum : partial) {
+    total += sum;
+  }
+  ElevationInformation result;
+  result.pose = {t, last.rotation, last.at(t)};
+  if (!(total.weight > 0.0)) {
+    return result;
+  }
+  const double variance = std::max(total.squared_error / total.weight, config.noise_m * config.noise_m);
+  const double scale = static_cast<double>(stride) * config.independent_share / variance;
+  // At the registered pose the gradient of pose and velocity is zero: the complement changes the information alone.
+  const Vector12d solved = icp.posterior_information.ldlt().solve(scale * total.mixed);
+  const double information = scale * total.square - scale * total.mixed.dot(solved);
+  if (!std::isfinite(information) || information <= 0.0) {
+    return result;
+  }
+  const double lever2 = information / (scale * total.weight);
+  return {information,
+          scale * total.gradient,
+          std::sqrt(lever2),
+          {t, last.rotation - solved.head<3>(), last.at(t) - solved.segment<3>(3)}};
+}
+
+void ElevationOffsetEstimator::add(const ElevationInformation& sweep) {
+  if (!(sweep.information > 0.0)) {
+    return;
+  }
+  // What was seen at another applied angle tells less, as the response is not exactly known: memory grows with the
+  // drive, the last third of it counts most.
+  const double n = static_cast<double>(++sweeps_);
+  const double keep = (n - 1.0) * (n - 1.0) / (n * n);
+  for (double* sum : {&information_, &weighted_offset_, &block_information_, &block_offset_, &squares_, &lever2_}) {
+    *sum *= keep;
+  }
+  squared_information_ *= keep * keep;
+  lever2_ += sweep.information * sweep.lever_m * sweep.lever_m;
+  const double weighted = sweep.information * applied_rad_ + sweep.gradient / kResponse;
+  information_ += sweep.information;
+  weighted_offset_ += weighted;
+  block_information_ += sweep.information;
+  block_offset_ += weighted;
+  if (++in_block_ == kSweepsPerBlock) {
+    const double mean = block_offset_ / block_information_;
+    squares_ += block_information_ * mean * mean;
+    squared_information_ += block_information_ * block_information_;
+    ++blocks_;
+    block_information_ = 0.0;
+    block_offset_ = 0.0;
+    in_block_ = 0;
+  }
+}
+
+double ElevationOffsetEstimator::offset_rad() const {
+  return information_ > 0.0 ? weighted_offset_ / information_ : 0.0;
+}
+
+double ElevationOffsetEstimator::sigma_rad() const {
+  if (blocks_ < kLeastBlocks) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double done = information_ - block_information_;
+  const double mean = (weighted_offset_ - block_offset_) / done;
+  const double scatter = std::max(0.0, squares_ / done - mean * mean);
+  // Weighted mean of independent blocks: its variance is the scatter over the effective number of blocks less one.
+  const double effective = done * done / squared_information_;
+  const double from_scatter = scatter / std::max(1.0, effective - 1.0);
+  const double systematic = kSystematicM * kSystematicM * information_ / lever2_;
+  return std::sqrt(std::max(from_scatter, 1.0 / information_) + systematic);
+}
+
+double ElevationOffsetEstimator::advance() {
+  const double sigma = sigma_rad();
+  const double estimate = offset_rad();
+  if (std::abs(estimate) > config_.significance * sigma && std::abs(estimate) > config_.least_deg * kRadPerDeg) {
+    certain_ = true;
+  }
+  if (!config_.enabled || !certain_) {
+    return 0.0;
+  }
+  const double step = config_.step_deg * kRadPerDeg;
+  const double change = std::clamp(estimate - applied_rad_, -step, step);
+  applied_rad_ += change;
+  return change;
+}
+
+}  // namespace rilo

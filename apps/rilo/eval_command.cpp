@@ -1,6 +1,5 @@
 // rilo eval: estimated trajectories against ground truth.
 #include <iostream>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -96,8 +95,6 @@ int eval(const EvalFlags& flags) {
 }
 
 void add_flags(CLI::App& command, EvalFlags& flags) {
-  static const std::map<std::string, Pairing> kPairings = {
-      {"auto", Pairing::kAuto}, {"index", Pairing::kIndex}, {"stamp", Pairing::kStamp}};
   command.add_option("GT", flags.truth, "true poses: a file, or a data folder")->required();
   command.add_option("EST", flags.estimate, "estimated poses")->required();
   command.add_option("MORE", flags.more, "further pairs GT EST, one a sequence");
@@ -108,7 +105,7 @@ void add_flags(CLI::App& command, EvalFlags& flags) {
       ->check(CLI::IsMember({"start", "mid", "end"}));
   command
       .add_option_function<std::string>(
-          "--associate", [&flags](const std::string& text) { flags.pairing.pairing = kPairings.at(text); },
+          "--associate", [&flags](const std::string& text) { flags.pairing.pairing = parse_pairing(text); },
           "pair poses by index or by stamp. Default: auto, by stamp when both files have stamps")
       ->check(CLI::IsMember({"auto", "index", "stamp"}));
   command.add_option("--max-gap-s", flags.pairing.max_gap_s, "largest distance of two stamps that belong together")

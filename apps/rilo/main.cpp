@@ -17,6 +17,7 @@ constexpr const char* kFooter = R"(Examples:
   rilo simulate --out drive --sensor hdl64 --sweeps 200     make a drive to play with
   rilo run drive --out results --map results/map.ply        odometry, map, figures, report.html
   rilo eval drive results/poses_lidar.txt                   errors against ground truth
+  rilo quality drive results/poses_lidar.txt                how crisp the map is; needs no ground truth
   rilo config --dump > my.yaml                              every key with its unit and meaning
 
 Exit codes: 0 success, 1 unexpected error, 2 wrong usage or configuration, 3 data missing or malformed,
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   cli::add_run_command(app, cli::command_line(argc, argv), exit_code);
   cli::add_eval_command(app, exit_code);
+  cli::add_quality_command(app, exit_code);
   cli::add_simulate_command(app, exit_code);
   cli::add_config_command(app, exit_code);
   cli::add_info_command(app, exit_code);

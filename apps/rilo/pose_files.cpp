@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -65,6 +66,12 @@ PoseFile read_truth(const std::filesystem::path& path, TruthInstant instant) {
   if (truth) return without_stamps(truth->file, truth->T_world_lidar);
   throw IoError(
       {path, "", "no ground truth", "poses.txt, poses_mid.txt or poses_velo.txt in it", "Give the pose file itself"});
+}
+
+Pairing parse_pairing(const std::string& text) {
+  static const std::map<std::string, Pairing> kPairings = {
+      {"auto", Pairing::kAuto}, {"index", Pairing::kIndex}, {"stamp", Pairing::kStamp}};
+  return kPairings.at(text);
 }
 
 PairedPoses pair_poses(const PoseFile& truth, const PoseFile& estimate, const PairingOptions& options) {

@@ -24,6 +24,9 @@ PoseFile read_truth(const std::filesystem::path& path, TruthInstant instant);
 
 enum class Pairing { kAuto, kIndex, kStamp };
 
+/// "auto", "index" or "stamp".
+Pairing parse_pairing(const std::string& text);
+
 struct PairingOptions {
   Pairing pairing = Pairing::kAuto;  ///< auto: by stamp when both files have stamps
   double max_gap_s = 0.02;

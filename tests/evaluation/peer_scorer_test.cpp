@@ -1,18 +1,14 @@
 // Agreement with an independent scorer (tools/evaltraj.py in the folder RILO_SHARED or ../shared); skipped without it.
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
 #include <map>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
 
+#include "evaluation/peer.hpp"
 #include "evaluation/trajectories.hpp"
 #include "rilo/evaluation/evaluation.hpp"
 
@@ -20,25 +16,14 @@ namespace rilo {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::peer_figures;
+using testing::python_has;
 using testing::random_drive;
+using testing::shared_folder;
 using testing::with_drift;
+using testing::write_poses;
 
 constexpr double kRelative = 1e-6;
-
-fs::path shared_folder() {
-  const char* told = std::getenv("RILO_SHARED");
-  return told != nullptr ? fs::path(told) : fs::path(RILO_SOURCE_DIR) / ".." / "shared";
-}
-
-std::string output_of(const std::string& command) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), &pclose);
-  std::string text;
-  std::array<char, 512> chunk{};
-  while (pipe && fgets(chunk.data(), static_cast<int>(chunk.size()), pipe.get()) != nullptr) {
-    text += chunk.data();
-  }
-  return text;
-}
 
 std::vector<SE3> read_poses(const fs::path& path) {
   std::ifstream file(path);
@@ -62,7 +47,7 @@ class PeerScorer : public ::testing::Test {
     if (!fs::exists(scorer_)) {
       GTEST_SKIP() << "no " << scorer_;
     }
-    if (output_of("/usr/bin/python3 -c 'import numpy; print(1)' 2>&1") != "1\n") {
+    if (!python_has("numpy")) {
       GTEST_SKIP() << "no /usr/bin/python3 with numpy";
     }
     folder_ = fs::temp_directory_path() / ("rilo_peer_scorer_" + std::to_string(getpid()));
@@ -74,34 +59,12 @@ class PeerScorer : public ::testing::Test {
     }
   }
 
-  fs::path write_poses(const std::string& name, const std::vector<SE3>& poses) const {
-    std::ofstream file(folder_ / name);
-    file << std::setprecision(17);
-    for (const SE3& T : poses) {
-      for (int i = 0; i < 12; ++i) {
-        file << T.matrix()(i / 4, i % 4) << (i == 11 ? '\n' : ' ');
-      }
-    }
-    return folder_ / name;
-  }
-
   /// Figures of the scorer by name, from its one line of JSON.
   std::map<std::string, double> score(const std::vector<SE3>& truth, const std::vector<SE3>& estimate) const {
     const std::string command = "/usr/bin/python3 '" + scorer_.string() + "' '" +
-                                write_poses("truth.txt", truth).string() + "' '" +
-                                write_poses("estimate.txt", estimate).string() + "' --json";
-    std::string text = output_of(command);
-    for (char& c : text) {
-      c = c == '{' || c == '}' || c == '"' || c == ':' || c == ',' ? ' ' : c;
-    }
-    std::istringstream words(text);
-    std::map<std::string, double> figures;
-    std::string name;
-    double value = 0;
-    while (words >> name >> value) {
-      figures[name] = value;
-    }
-    return figures;
+                                write_poses(folder_ / "truth.txt", truth).string() + "' '" +
+                                write_poses(folder_ / "estimate.txt", estimate).string() + "' --json";
+    return peer_figures(command);
   }
 
   void expect_agreement(const std::vector<SE3>& truth, const std::vector<SE3>& estimate) const {

@@ -1,0 +1,202 @@
+// rilo quality: how crisp the map is that a trajectory builds; needs no ground truth.
+#include <algorithm>
+#include <cstdint>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "checks.hpp"
+#include "command.hpp"
+#include "progress.hpp"
+#include "rilo/evaluation/map_quality.hpp"
+#include "rilo/io/scan_source.hpp"
+#include "source_flags.hpp"
+#include "sweep_poses.hpp"
+#include "text.hpp"
+
+namespace rilo::cli {
+
+namespace {
+
+constexpr double kMillimetres = 1e3;
+
+struct QualityFlags {
+  std::string data;
+  std::string poses;
+  std::size_t start = 0;
+  std::size_t count = 0;  // 0: all
+  PairingOptions pairing;
+  MapQualityConfig config;
+  bool quiet = false;
+  bool json = false;
+  SourceFlags source;
+};
+
+struct QualityRun {
+  MapQuality quality;
+  std::string protocol;
+  SourceInfo source;
+};
+
+constexpr const char* kFooter =
+    R"(DATA as for rilo run, read with the same options. POSES: KITTI form (12 numbers a line) in the LiDAR frame, or TUM form
+(t x y z qx qy qz qw), told from the first line; poses at the middle of the sweep, as rilo's are. Sweeps with per-point
+times are motion-compensated with the velocity between the neighbouring poses (--point-times none: they are already).
+Smaller is crisper. Compare trajectories on the same sweeps with the same options; below about 1 % it is noise.
+
+Examples:
+  rilo quality kitti/sequences/00 results/00/poses_lidar.txt
+  rilo quality drive results/trajectory.tum --max-range 60 --json)";
+
+QualityRun measure(const QualityFlags& flags) {
+  const SweepPoses poses(read_poses(flags.poses), flags.pairing);
+  MapQualityMeter meter(flags.config);
+  const auto source = open_scan_source(flags.data, flags.source.options);
+  source->skip(flags.start);
+  std::optional<std::size_t> total = source->size();
+  if (total) *total -= std::min(*total, flags.start);
+  if (flags.count > 0) total = std::min(total.value_or(flags.count), flags.count);
+  Progress progress("rilo", total, flags.quiet);
+  std::size_t read = 0;
+  while ((flags.count == 0 || read < flags.count) && !poses.end(read)) {
+    const std::optional<Sweep> sweep = source->next();
+    if (!sweep) break;
+    check_point_times(flags.source, *sweep, source->current_name());
+    if (const auto pose = poses.of(*sweep, read, source->info().period_s)) meter.add(points_at(*sweep, *pose), pose->T);
+    progress.update(++read);
+  }
+  progress.finish();
+  const MapQuality quality = meter.result();
+  return {quality,
+          fmt::format("{}; {} poses, {} of {} sweeps have one", poses.protocol(), poses.size(), quality.sweeps, read),
+          source->info()};
+}
+
+void check_found(const QualityFlags& flags, const QualityRun& run) {
+  if (run.quality.windows == 0) {
+    throw CommandError(
+        kBadData, fmt::format("{} and {}: {} ({}); expected at least one window of {}. Give more sweeps or a smaller "
+                              "--window",
+                              flags.data, flags.poses, counted(run.quality.sweeps, "sweep"), run.protocol,
+                              flags.config.window_sweeps));
+  }
+  if (run.quality.plane_rms_m.count == 0) {
+    throw CommandError(kBadData,
+                       fmt::format("{} and {}: no planar place among {} in {}; expected neighbours of at least {} "
+                                   "sweeps around a point. Check that the poses are of the LiDAR frame, or give a "
+                                   "larger --radius or --max-range",
+                                   flags.data, flags.poses, counted(run.quality.places, "place"),
+                                   counted(run.quality.windows, "window"), flags.config.min_sweeps));
+  }
+}
+
+nlohmann::json quality_json(const QualityFlags& flags, const QualityRun& run) {
+  const MapQuality& q = run.quality;
+  const MapQualityConfig& c = flags.config;
+  return {{"data", valid_utf8(flags.data)},
+          {"poses", valid_utf8(flags.poses)},
+          {"protocol", run.protocol},
+          {"point_times", run.source.point_times},
+          {"motion_compensation", run.source.has_point_times},
+          {"elevation_correction_deg", run.source.elevation_correction_deg},
+          {"bad_sweeps", run.source.bad_sweeps},
+          {"warnings", run.source.warnings},
+          {"sweeps", q.sweeps},
+          {"windows", q.windows},
+          {"places", q.places},
+          {"planar_places", q.plane_rms_m.count},
+          {"plane_rms_m", {{"median", q.plane_rms_m.median}, {"mean", q.plane_rms_m.mean}, {"p75", q.plane_rms_p75_m}}},
+          {"mean_map_entropy", q.mean_map_entropy.value_or(0)},
+          {"window_sweeps", c.window_sweeps},
+          {"sweep_step", c.sweep_step},
+          {"min_range_m", c.min_range_m},
+          {"max_range_m", c.max_range_m},
+          {"voxel_m", c.voxel_m},
+          {"points_per_sweep", c.points_per_sweep},
+          {"samples_per_window", c.samples_per_window},
+          {"radius_m", c.radius_m},
+          {"seed", c.seed}};
+}
+
+std::string quality_table(const QualityFlags& flags, const QualityRun& run) {
+  const MapQuality& q = run.quality;
+  std::string text = fmt::format("{} with {}\n{}\n", valid_utf8(flags.data), valid_utf8(flags.poses), run.protocol);
+  text += fmt::format("{} of {} sweeps, {}, {} of them planar; points from {} to {} m, neighbours within {} m\n",
+                      counted(q.windows, "window"), flags.config.window_sweeps, counted(q.places, "place"),
+                      q.plane_rms_m.count, flags.config.min_range_m, flags.config.max_range_m, flags.config.radius_m);
+  text += fmt::format("{:<34} median {:.3f}  mean {:.3f}  75 % {:.3f} mm\n", "RMS distance to the local plane",
+                      kMillimetres * q.plane_rms_m.median, kMillimetres * q.plane_rms_m.mean,
+                      kMillimetres * q.plane_rms_p75_m);
+  return text + fmt::format("{:<34} {:.4f}\n", "Mean map entropy", q.mean_map_entropy.value_or(0));
+}
+
+int quality(const QualityFlags& flags) {
+  const QualityRun run = measure(flags);
+  for (const std::string& warning : run.source.warnings) {
+    if (!flags.quiet) std::cerr << "rilo: warning: " << warning << '\n';
+  }
+  check_found(flags, run);
+  std::cout << (flags.json ? json_text(quality_json(flags, run)) : quality_table(flags, run));
+  return kSuccess;
+}
+
+CLI::Option* add_number(CLI::App& command, const char* name, double& value, double least, double most,
+                        const char* help) {
+  return command.add_option(name, value, help)->check(number_within(least, most))->capture_default_str();
+}
+
+template <typename Count>
+CLI::Option* add_count(CLI::App& command, const char* name, Count& value, std::int64_t most, const char* help) {
+  return command.add_option(name, value, help)->check(whole_number(most))->capture_default_str();
+}
+
+void add_map_flags(CLI::App& command, MapQualityConfig& config) {
+  constexpr std::int64_t kMany = 1'000'000'000;
+  add_count(command, "--window", config.window_sweeps, kMany, "consecutive sweeps that make one map");
+  add_count(command, "--sweep-step", config.sweep_step, kMany, "every so manieth of them goes into it");
+  add_number(command, "--min-range", config.min_range_m, 0, 1e4, "points nearer to the sensor (m) are left out");
+  add_number(command, "--max-range", config.max_range_m, 0, 1e4, "points farther away (m) are left out");
+  add_number(command, "--voxel", config.voxel_m, 0, 1e3, "one point of a sweep per voxel of this size (m); 0: all");
+  add_number(command, "--radius", config.radius_m, 1e-6, 1e3, "of the neighbourhood that a plane is fitted to (m)");
+  add_count(command, "--points", config.points_per_sweep, kMany, "at most that many points of a sweep, at random");
+  add_count(command, "--samples", config.samples_per_window, kMany, "places of a map that are looked at");
+  add_count(command, "--seed", config.seed, std::numeric_limits<std::int64_t>::max(), "of the random choice");
+  add_count(command, "--threads", config.threads, 1024,
+            "threads; 0: as many as the machine has; the result does not depend on it");
+}
+
+void add_flags(CLI::App& command, QualityFlags& flags) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  command.add_option("DATA", flags.data, "folder or file with sweeps")->required()->check(path_given());
+  command.add_option("POSES", flags.poses, "poses of the LiDAR, one a sweep")->required()->check(path_given());
+  add_count(command, "--start", flags.start, kMost,
+            "leave out that many sweeps; by index, the next one has the first pose, as after run --start");
+  add_count(command, "--count", flags.count, kMost, "look at that many sweeps; 0: all");
+  command
+      .add_option_function<std::string>(
+          "--associate", [&flags](const std::string& text) { flags.pairing.pairing = parse_pairing(text); },
+          "pair poses with sweeps by index or by stamp. Default: auto, by stamp when POSES has stamps")
+      ->check(CLI::IsMember({"auto", "index", "stamp"}));
+  add_number(command, "--max-gap-s", flags.pairing.max_gap_s, 0, 1e6,
+             "largest distance of a pose's stamp from the middle of its sweep");
+  add_map_flags(command, flags.config);
+  command.add_flag("--quiet", flags.quiet, "no progress, no warnings");
+  command.add_flag("--json", flags.json, "print JSON");
+  add_source_flags(command, flags.source);
+}
+
+}  // namespace
+
+void add_quality_command(CLI::App& app, int& exit_code) {
+  auto flags = std::make_shared<QualityFlags>();
+  CLI::App* command = app.add_subcommand("quality", "how crisp a trajectory's map is; needs no ground truth");
+  command->footer(kFooter);
+  add_flags(*command, *flags);
+  command->callback([flags, &exit_code] { exit_code = quality(*flags); });
+}
+
+}  // namespace rilo::cli

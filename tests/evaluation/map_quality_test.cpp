@@ -1,0 +1,304 @@
+#include "rilo/evaluation/map_quality.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "evaluation/peer.hpp"
+#include "evaluation/trajectories.hpp"
+
+namespace rilo {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::pose;
+
+using Points = std::vector<Eigen::Vector3f>;
+
+struct Drive {
+  std::vector<Points> sweeps;
+  std::vector<SE3> poses;
+};
+
+// A floor 1.5 m below and a wall 5 m to the left, seen from a sensor that drives along x; `noise_m` is that of the
+// distance to them. Places are drawn anew for every sweep.
+Drive floor_and_wall(std::size_t sweeps, std::size_t points, double noise_m, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> across(-1, 1);
+  std::normal_distribution<double> noise(0, noise_m);
+  Drive drive;
+  for (std::size_t i = 0; i < sweeps; ++i) {
+    const SE3 T = pose(0.1 * static_cast<double>(i), 0, 0, 0.01 * static_cast<double>(i));
+    Points sweep;
+    for (std::size_t k = 0; k < points; ++k) {
+      const double x = 10 + 2 * across(random);
+      const Eigen::Vector3d p = k % 2 == 0 ? Eigen::Vector3d(x, 2 * across(random), -1.5 + noise(random))
+                                           : Eigen::Vector3d(x, 5 + noise(random), 2 + 2 * across(random));
+      sweep.emplace_back((T.inverse() * p).cast<float>());
+    }
+    drive.sweeps.push_back(sweep);
+    drive.poses.push_back(T);
+  }
+  return drive;
+}
+
+MapQualityConfig every_sweep(std::size_t window) {
+  MapQualityConfig config;
+  config.window_sweeps = window;
+  config.sweep_step = 1;
+  return config;
+}
+
+void expect_same(const MapQuality& a, const MapQuality& b) {
+  EXPECT_EQ(a.places, b.places);
+  EXPECT_EQ(a.plane_rms_m.median, b.plane_rms_m.median);
+  EXPECT_EQ(a.plane_rms_m.mean, b.plane_rms_m.mean);
+  EXPECT_EQ(a.plane_rms_p75_m, b.plane_rms_p75_m);
+  EXPECT_EQ(a.mean_map_entropy, b.mean_map_entropy);
+}
+
+// Islands of 21 points of a lattice (i² + j² ≤ 5). The first sweep sees their centres only, eight more see all, and
+// their poses are d too high and d too low in turn: the variance across is 8 · 21 d² / 168 = d², along the plane it is
+// 8 · 34 pitch² / 168. All numbers are exact in binary.
+TEST(MapQuality, IslandsByHand) {
+  constexpr double kPitch = 0.125;
+  constexpr double kD = 1.0 / 64;
+  Drive drive;
+  for (int s = 0; s < 9; ++s) {
+    Points points;
+    for (int island = 0; island < 20; ++island) {
+      for (int i = -2; i <= 2; ++i) {
+        for (int j = -2; j <= 2; ++j) {
+          if (i * i + j * j <= (s == 0 ? 0 : 5)) {
+            points.emplace_back(static_cast<float>(5 + island + i * kPitch), static_cast<float>(j * kPitch), -1.0F);
+          }
+        }
+      }
+    }
+    drive.sweeps.push_back(points);
+    drive.poses.push_back(pose(0, 0, s == 0 ? 0 : (s % 2 == 0 ? kD : -kD)));
+  }
+  const MapQuality quality = map_quality(drive.sweeps, drive.poses, every_sweep(9));
+  EXPECT_EQ(quality.sweeps, 9U);
+  EXPECT_EQ(quality.windows, 1U);
+  EXPECT_EQ(quality.places, 20U);
+  EXPECT_EQ(quality.plane_rms_m.count, 20U);
+  EXPECT_NEAR(quality.plane_rms_m.median, kD, 1e-14);
+  EXPECT_NEAR(quality.plane_rms_m.mean, kD, 1e-14);
+  EXPECT_NEAR(quality.plane_rms_p75_m, kD, 1e-14);
+  const double along = 8 * 34 * kPitch * kPitch / 168;
+  const double entropy = 1.5 * std::log(2 * std::numbers::pi * std::numbers::e) + std::log(along) + std::log(kD);
+  EXPECT_NEAR(quality.mean_map_entropy.value(), entropy, 1e-12);
+}
+
+TEST(MapQuality, IsTheNoiseOfThePlanes) {
+  for (const double noise_m : {0.005, 0.02}) {
+    const Drive drive = floor_and_wall(30, 6000, noise_m);
+    const MapQuality quality = map_quality(drive.sweeps, drive.poses);
+    EXPECT_GT(quality.plane_rms_m.count, 2500U);
+    EXPECT_NEAR(quality.plane_rms_m.median, noise_m, 0.02 * noise_m);
+    EXPECT_NEAR(quality.plane_rms_m.mean, noise_m, 0.02 * noise_m);
+    EXPECT_GT(quality.plane_rms_p75_m, quality.plane_rms_m.median);
+  }
+}
+
+TEST(MapQuality, PerfectPlanesHaveAFiniteFigure) {
+  Drive drive = floor_and_wall(30, 3000, 0.0);
+  for (Points& sweep : drive.sweeps) {
+    for (Eigen::Vector3f& p : sweep) {
+      p.z() = -1.5F;
+    }
+  }
+  drive.poses.assign(30, SE3::Identity());
+  const MapQuality quality = map_quality(drive.sweeps, drive.poses);
+  EXPECT_NEAR(quality.plane_rms_m.median, 1e-6, 1e-9);
+  EXPECT_TRUE(std::isfinite(quality.mean_map_entropy.value()));
+}
+
+TEST(MapQuality, WrongPosesAreWorse) {
+  const Drive drive = floor_and_wall(45, 4000, 0.01);
+  std::mt19937 random(5);
+  MapQuality before = map_quality(drive.sweeps, drive.poses);
+  for (const double error : {0.001, 0.003, 0.01}) {
+    const std::vector<SE3> wrong = testing::with_drift(random, drive.poses, error / 10, error);
+    const MapQuality after = map_quality(drive.sweeps, wrong);
+    EXPECT_GT(after.plane_rms_m.median, before.plane_rms_m.median) << error;
+    EXPECT_GT(after.plane_rms_m.mean, before.plane_rms_m.mean) << error;
+    EXPECT_GT(after.mean_map_entropy.value(), before.mean_map_entropy.value()) << error;
+    before = after;
+  }
+}
+
+TEST(MapQuality, SameBitsForAnyNumberOfThreads) {
+  const Drive drive = floor_and_wall(45, 5000, 0.01);
+  MapQualityConfig config;
+  config.samples_per_window = 500;
+  config.points_per_sweep = 4000;
+  config.threads = 1;
+  const MapQuality one = map_quality(drive.sweeps, drive.poses, config);
+  EXPECT_EQ(one.windows, 2U);
+  EXPECT_LE(one.places, 1000U);
+  for (const int threads : {2, 5, 0}) {
+    config.threads = threads;
+    expect_same(map_quality(drive.sweeps, drive.poses, config), one);
+  }
+  config.seed = 2;
+  const MapQuality other = map_quality(drive.sweeps, drive.poses, config);
+  EXPECT_NE(other.plane_rms_m.median, one.plane_rms_m.median);
+  EXPECT_NEAR(other.plane_rms_m.median, one.plane_rms_m.median, 0.03 * one.plane_rms_m.median);
+}
+
+TEST(MapQuality, DoesNotDependOnTheFrameOfTheTrajectory) {
+  const Drive drive = floor_and_wall(30, 3000, 0.01);
+  std::vector<SE3> moved = drive.poses;
+  for (SE3& T : moved) {
+    T = pose(1000, -2000, 30, 2.0) * T;
+  }
+  const MapQuality a = map_quality(drive.sweeps, drive.poses);
+  const MapQuality b = map_quality(drive.sweeps, moved);
+  EXPECT_NEAR(a.plane_rms_m.median, b.plane_rms_m.median, 1e-9);
+  EXPECT_NEAR(a.mean_map_entropy.value(), b.mean_map_entropy.value(), 1e-6);
+}
+
+TEST(MapQuality, WindowsOverlapByHalf) {
+  const Drive drive = floor_and_wall(50, 50, 0.01);
+  const auto windows = [&](std::size_t sweeps, std::size_t window) {
+    return map_quality({drive.sweeps.begin(), drive.sweeps.begin() + static_cast<std::ptrdiff_t>(sweeps)},
+                       {drive.poses.begin(), drive.poses.begin() + static_cast<std::ptrdiff_t>(sweeps)},
+                       every_sweep(window))
+        .windows;
+  };
+  EXPECT_EQ(windows(29, 30), 0U);
+  EXPECT_EQ(windows(30, 30), 1U);
+  EXPECT_EQ(windows(44, 30), 1U);
+  EXPECT_EQ(windows(45, 30), 2U);
+  EXPECT_EQ(windows(50, 7), 15U);  // begin at 0, 3, … 42
+}
+
+TEST(MapQuality, NothingToSee) {
+  const std::vector<SE3> poses(30, SE3::Identity());
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Points nothing;
+  const Points one = {{10, 0, 0}};
+  const Points not_finite = {{nan, 0, 0}, {10, std::numeric_limits<float>::infinity(), 0}};
+  const Points out_of_range = {{1, 0, 0}, {50, 0, 0}};
+  for (const Points& points : {nothing, one, not_finite, out_of_range}) {
+    const MapQuality quality = map_quality(std::vector<Points>(30, points), poses);
+    EXPECT_EQ(quality.sweeps, 30U);
+    EXPECT_EQ(quality.windows, 1U);
+    EXPECT_EQ(quality.places, 0U);
+    EXPECT_EQ(quality.plane_rms_m.count, 0U);
+    EXPECT_EQ(quality.plane_rms_p75_m, 0);
+    EXPECT_FALSE(quality.mean_map_entropy.has_value());
+  }
+  const MapQuality none = map_quality({}, {});
+  EXPECT_EQ(none.sweeps, 0U);
+  EXPECT_EQ(none.windows, 0U);
+}
+
+// Thirty copies of one point: no extent, so no plane either.
+TEST(MapQuality, APileOfOnePointIsNoPlane) {
+  const MapQuality quality =
+      map_quality(std::vector<Points>(30, Points(10, {10, 0, 0})), std::vector<SE3>(30, SE3::Identity()));
+  EXPECT_EQ(quality.places, 10U);
+  EXPECT_EQ(quality.plane_rms_m.count, 0U);
+  EXPECT_TRUE(std::isfinite(quality.mean_map_entropy.value()));
+}
+
+TEST(MapQuality, PointsThatAreNotFiniteChangeNothing) {
+  Drive drive = floor_and_wall(30, 2000, 0.01);
+  const MapQuality clean = map_quality(drive.sweeps, drive.poses);
+  for (Points& sweep : drive.sweeps) {
+    sweep.insert(sweep.begin() + 7, {std::numeric_limits<float>::quiet_NaN(), 0, 0});
+    sweep.push_back({0, std::numeric_limits<float>::infinity(), 10});
+  }
+  const MapQuality spoilt = map_quality(drive.sweeps, drive.poses);
+  EXPECT_EQ(spoilt.places, clean.places);
+  EXPECT_NEAR(spoilt.plane_rms_m.median, clean.plane_rms_m.median, 1e-12);
+  EXPECT_NEAR(spoilt.mean_map_entropy.value(), clean.mean_map_entropy.value(), 1e-9);
+}
+
+TEST(MapQuality, VoxelsThinEverySweep) {
+  const Drive drive = floor_and_wall(30, 6000, 0.01);
+  MapQualityConfig config;
+  config.samples_per_window = 100000;
+  const MapQuality all = map_quality(drive.sweeps, drive.poses, config);
+  config.voxel_m = 0.2;
+  const MapQuality thin = map_quality(drive.sweeps, drive.poses, config);
+  EXPECT_LT(thin.places, all.places / 2);
+  EXPECT_GT(thin.places, 200U);
+  EXPECT_NEAR(thin.plane_rms_m.median, 0.01, 0.001);
+}
+
+TEST(MapQuality, WhatMakesNoSenseIsRefused) {
+  const auto refused = [](const auto& change) {
+    MapQualityConfig config;
+    change(config);
+    EXPECT_THROW(MapQualityMeter{config}, std::invalid_argument);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused([](auto& c) { c.window_sweeps = 0; });
+  refused([](auto& c) { c.window_sweeps = 12; });  // 4 sweeps, min_sweeps is 5
+  refused([](auto& c) { c.sweep_step = 0; });
+  refused([](auto& c) { c.radius_m = 0; });
+  refused([&](auto& c) { c.radius_m = nan; });
+  refused([](auto& c) { c.max_range_m = 3; });
+  refused([&](auto& c) { c.max_range_m = nan; });
+  refused([](auto& c) { c.voxel_m = -1; });
+  refused([](auto& c) { c.voxel_m = 1e-6; });
+  refused([](auto& c) { c.points_per_sweep = 0; });
+  refused([](auto& c) { c.samples_per_window = 0; });
+  refused([](auto& c) { c.min_neighbours = 3; });
+  refused([](auto& c) { c.min_sweeps = 0; });
+  refused([](auto& c) { c.max_planar_ratio = 0; });
+  refused([](auto& c) { c.threads = -1; });
+  EXPECT_THROW(map_quality({Points{}}, {}), std::invalid_argument);
+  EXPECT_THROW(map_quality({Points{}}, {pose(nan, 0, 0)}), std::invalid_argument);
+}
+
+// With so few points nothing is left to chance in either program.
+TEST(MapQualityPeer, AgreesWithTheIndependentProgram) {
+  const fs::path peer = testing::shared_folder() / "tools" / "mapquality.py";
+  if (!fs::exists(peer)) {
+    GTEST_SKIP() << "no " << peer;
+  }
+  if (!testing::python_has("numpy, scipy")) {
+    GTEST_SKIP() << "no /usr/bin/python3 with numpy and scipy";
+  }
+  const fs::path folder = fs::temp_directory_path() / ("rilo_map_quality_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  const Drive drive = floor_and_wall(64, 2500, 0.01);
+  std::mt19937 random(3);
+  const std::vector<SE3> poses = testing::with_drift(random, drive.poses, 0.0005, 0.003);
+  for (std::size_t i = 0; i < drive.sweeps.size(); ++i) {
+    std::ofstream file(folder / (std::to_string(100 + i) + ".bin"), std::ios::binary);
+    for (const Eigen::Vector3f& p : drive.sweeps[i]) {
+      const Eigen::Vector4f record(p.x(), p.y(), p.z(), 0);
+      file.write(reinterpret_cast<const char*>(record.data()), sizeof(float) * 4);
+    }
+  }
+  testing::write_poses(folder / "poses.txt", poses);
+  const auto theirs = testing::peer_figures("/usr/bin/python3 '" + peer.string() + "' '" + folder.string() + "' '" +
+                                            (folder / "poses.txt").string() + "' --json");
+  fs::remove_all(folder);
+  ASSERT_EQ(theirs.size(), 5U) << "unexpected output of the program";
+  const MapQuality ours = map_quality(drive.sweeps, poses);
+  EXPECT_EQ(ours.windows, 3U);
+  EXPECT_EQ(static_cast<double>(ours.sweeps), theirs.at("frames"));
+  EXPECT_EQ(static_cast<double>(ours.places), theirs.at("samples"));
+  EXPECT_NEAR(1e3 * ours.plane_rms_m.median, theirs.at("plane_rms_mm"), 1e-8 * theirs.at("plane_rms_mm"));
+  EXPECT_NEAR(1e3 * ours.plane_rms_p75_m, theirs.at("plane_p75_mm"), 1e-8 * theirs.at("plane_p75_mm"));
+  EXPECT_NEAR(ours.mean_map_entropy.value(), theirs.at("mme"), 1e-8);
+}
+
+}  // namespace
+}  // namespace rilo

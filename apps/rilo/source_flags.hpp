@@ -1,4 +1,4 @@
-// Command-line options that say how data are read; shared by run and info.
+// Command-line options that say how data are read; shared by run, quality and info.
 #pragma once
 
 #include <string>

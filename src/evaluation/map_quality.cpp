@@ -11,6 +11,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <nanoflann.hpp>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "cloud/fixed_chunks.hpp"
@@ -139,6 +140,12 @@ Place look_at(const WindowMap& map, const Tree& tree, const Eigen::Vector3d& cen
   return place;
 }
 
+// More than the machine has, if so told.
+std::size_t workers_for(int threads) {
+  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return std::max(allowed, static_cast<std::size_t>(threads));
+}
+
 // Linear between the two nearest values.
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) {
@@ -243,6 +250,7 @@ void MapQualityMeter::measure(std::size_t first) {
   }
   const Tree tree(3, map, nanoflann::KDTreeSingleIndexAdaptorParams(32));
   std::vector<Place> places(std::min(reference.points.size(), config_.samples_per_window));
+  const tbb::global_control workers(tbb::global_control::max_allowed_parallelism, workers_for(config_.threads));
   tbb::task_arena arena(config_.threads > 0 ? config_.threads : tbb::task_arena::automatic);
   arena.execute([&] {
     for_each_index(places.size(), [&](std::size_t i) { places[i] = look_at(map, tree, map.points[i], config_); });

@@ -157,7 +157,8 @@ CLI::Option* add_count(CLI::App& command, const char* name, Count& value, std::i
 void add_map_flags(CLI::App& command, MapQualityConfig& config) {
   constexpr std::int64_t kMany = 1'000'000'000;
   add_count(command, "--window", config.window_sweeps, kMany, "consecutive sweeps that make one map");
-  add_count(command, "--sweep-step", config.sweep_step, kMany, "every so manieth of them goes into it");
+  add_count(command, "--sweep-step", config.sweep_step, kMany,
+            "1: all of them go into it; 3: sweeps 0, 3, 6 and so on");
   add_number(command, "--min-range", config.min_range_m, 0, 1e4, "points nearer to the sensor (m) are left out");
   add_number(command, "--max-range", config.max_range_m, 0, 1e4, "points farther away (m) are left out");
   add_number(command, "--voxel", config.voxel_m, 0, 1e3, "one point of a sweep per voxel of this size (m); 0: all");

@@ -66,19 +66,19 @@ struct WindowMap {
 using Tree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, WindowMap>, WindowMap, 3, std::uint32_t>;
 
-// A result set of nanoflann: all points within the radius, no distances, no order.
+// A result set of nanoflann, which asks for these names: all points within the radius, no distances, no order.
 class Ball {
  public:
   using DistanceType = double;
   using IndexType = std::uint32_t;
   explicit Ball(double radius_m) : limit_(std::nextafter(radius_m * radius_m, std::numeric_limits<double>::max())) {}
-  bool addPoint(double distance2, std::uint32_t index) {
+  bool addPoint(double distance2, std::uint32_t index) {  // NOLINT(readability-identifier-naming)
     if (distance2 < limit_) {
       found_.push_back(index);
     }
     return true;
   }
-  double worstDist() const { return limit_; }
+  double worstDist() const { return limit_; }  // NOLINT(readability-identifier-naming)
   bool full() const { return true; }
   bool empty() const { return found_.empty(); }
   std::size_t size() const { return found_.size(); }

@@ -17,7 +17,7 @@ namespace rilo {
 /// What is looked at. Compare trajectories on the same sweeps with the same numbers only.
 struct MapQualityConfig {
   std::size_t window_sweeps = 30;         ///< consecutive sweeps of one map; the next map begins half a window later
-  std::size_t sweep_step = 3;             ///< every so manieth sweep of a window goes into its map
+  std::size_t sweep_step = 3;             ///< sweeps 0, 3, 6 … of a window go into its map
   double min_range_m = 3;                 ///< points nearer to the sensor are left out
   double max_range_m = 40;                ///< and points farther away
   double voxel_m = 0;                     ///< keeps one point of a sweep per voxel of this size; 0: all

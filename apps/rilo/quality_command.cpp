@@ -43,8 +43,8 @@ struct QualityRun {
 };
 
 constexpr const char* kFooter =
-    R"(DATA as for rilo run, read with the same options. POSES: KITTI form (12 numbers a line) in the LiDAR frame, or TUM form
-(t x y z qx qy qz qw), told from the first line; poses at the middle of the sweep, as rilo's are. Sweeps with per-point
+    R"(DATA as for rilo run, read with the same options. POSES: of the LiDAR, KITTI form (12 numbers a line) or TUM form
+(t x y z qx qy qz qw), told from the first line; at the middle of the sweep, as rilo's are. Sweeps with per-point
 times are motion-compensated with the velocity between the neighbouring poses (--point-times none: they are already).
 Smaller is crisper. Compare trajectories on the same sweeps with the same options; below about 1 % it is noise.
 

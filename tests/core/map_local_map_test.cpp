@@ -84,7 +84,9 @@ TEST(LocalMapTest, TheSceneRangeChoosesTheFinestLevel) {
   };
   for (const Case& c : {Case{0.0, 4}, Case{1.0, 4}, Case{6.0, 4}, Case{8.0, 4}, Case{9.0, 3}, Case{12.0, 3},
                         Case{24.0, 2}, Case{1000.0, 2}}) {
-    LocalMap map(config_of(4));
+    LocalMapConfig config = config_of(4);
+    config.scene_voxels = 24.0;
+    LocalMap map(config);
     map.set_scene_range(c.range_m);
     map.insert({{0.1F, 0.1F, 0.1F}}, SE3::Identity());
     EXPECT_EQ(map.size(), c.levels) << "range " << c.range_m;

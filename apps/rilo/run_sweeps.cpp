@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <fstream>
 #include <new>
 #include <optional>
 #include <string>
-#include <sys/resource.h>
+#include <thread>
+
+#include <fmt/format.h>
 
 #include "interrupt.hpp"
+#include "process_memory.hpp"
 #include "progress.hpp"
 #include "rilo/cloud/thinned_map.hpp"
 #include "rilo/io/io_error.hpp"
@@ -25,19 +27,6 @@ constexpr double kPictureVoxelM = 0.75;  // enough for the report's picture of t
 std::int64_t steady_ns() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
-// Of this program alone: getrusage may give the peak of the process that started it.
-double peak_rss_mb() {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  double kib = 0;
-  while (status >> word) {
-    if (word == "VmHWM:" && status >> kib) return kib / 1024.0;
-  }
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
 std::optional<std::size_t> sweeps_to_do(const RunFlags& flags, const ScanSource& source) {
@@ -68,10 +57,13 @@ class SweepLoop {
         partial_(partial),
         run_(run),
         odometry_(run.config, steady_ns),
+        map_wanted_(!flags.map.empty() || (!flags.out.empty() && !flags.no_report)),
         map_(flags.map.empty() ? kPictureVoxelM : kMapVoxelM),
         progress_("rilo", sweeps_to_do(flags, source), flags.quiet) {}
 
   void run() {
+    const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+    run_.threads = run_.config.threads > 0 ? run_.config.threads : static_cast<int>(processors);
     const std::int64_t begin = steady_ns();
     try {
       source_.skip(flags_.start);
@@ -91,7 +83,11 @@ class SweepLoop {
     run_.wall_s = static_cast<double>(steady_ns() - begin) * 1e-9;
     run_.peak_rss_mb = peak_rss_mb();
     run_.source = source_.info();
-    run_.map = map_.points().empty() ? odometry_.local_map() : map_.points();
+    if (run_.results.empty() && run_.signal == 0 && run_.error.empty()) {
+      fail(kBadData, fmt::format("{}: no sweep to run ({} could not be read, --start is {})", run_.data.string(),
+                                 run_.source.bad_sweeps, flags_.start));
+    }
+    if (map_wanted_) run_.map = map_.points().empty() ? odometry_.local_map() : map_.points();
   }
 
  private:
@@ -105,7 +101,7 @@ class SweepLoop {
     run_.results.push_back(result);
     run_.indices.push_back(source_.current_index());
     partial_.add(result.T_odom_lidar);
-    if (belongs_in_map(result, *sweep)) map_.add(odometry_.last_map_points(), result.T_odom_lidar);
+    if (map_wanted_ && belongs_in_map(result, *sweep)) map_.add(odometry_.last_map_points(), result.T_odom_lidar);
     const bool usual = result.status == OdometryStatus::kOk;
     progress_.update(run_.results.size(), usual ? "" : std::string(to_string(result.status)));
     return true;
@@ -132,6 +128,7 @@ class SweepLoop {
   PartialPoses& partial_;
   RunRecord& run_;
   Odometry odometry_;
+  bool map_wanted_;  // for the file or the report
   ThinnedMap map_;
   Progress progress_;
   std::vector<std::string> shown_;

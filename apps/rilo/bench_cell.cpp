@@ -6,7 +6,6 @@
 #include "failure.hpp"
 #include "partial_poses.hpp"
 #include "pose_files.hpp"
-#include "process_memory.hpp"
 #include "run_record.hpp"
 #include "run_sweeps.hpp"
 #include "run_truth.hpp"
@@ -99,7 +98,6 @@ BenchCell peer_cell(const BenchSequence& sequence, const BenchPeer& peer, const 
 
 std::vector<BenchCell> run_cell(const BenchSequence& sequence, const BenchConfiguration& configuration,
                                 const BenchRunFlags& flags, bool with_peers) {
-  restart_peak_rss();
   RunRecord record;
   record.config = configuration.config;
   if (flags.threads >= 0) record.config.threads = flags.threads;

@@ -7,6 +7,7 @@
 
 #include "bench_baseline.hpp"
 #include "bench_paper.hpp"
+#include "bench_process.hpp"
 #include "checks.hpp"
 #include "command.hpp"
 #include "interrupt.hpp"
@@ -33,7 +34,8 @@ first failure). Ctrl-C ends the benchmark and writes what is finished.
 Leaves in --out: results.json, results.csv, results.md.
 
 Examples:
-  rilo bench experiments/ablation.yaml --data drives/* --out results
+  rilo bench experiments/ablation.yaml --root drives --out results
+  rilo bench experiments/ablation.yaml --data drives/a drives/b
   rilo bench my.yaml --count 200 --baseline results/results.json
   rilo bench kitti data/kitti --out results/kitti
   rilo bench m2dgr data/m2dgr)";
@@ -56,7 +58,7 @@ Example:
 struct BenchFlags {
   std::string plan;
   std::vector<std::string> data;
-  std::string root;
+  std::string root;  // of the plan's sequences, or of the data set
   std::string out;
   std::string baseline;
   std::string config_file;
@@ -87,7 +89,7 @@ std::vector<BenchSequence> sequences_of(const BenchPlan& plan, const BenchFlags&
 }
 
 std::vector<BenchJob> plan_jobs(const BenchFlags& flags) {
-  const BenchPlan plan = load_bench_plan(flags.plan);
+  const BenchPlan plan = load_bench_plan(flags.plan, flags.root);
   std::vector<BenchJob> jobs;
   for (const BenchSequence& sequence : sequences_of(plan, flags)) {
     for (const BenchConfiguration& configuration : plan.configurations) jobs.push_back({sequence, configuration});
@@ -134,7 +136,7 @@ class Bench {
     const std::string name = fmt::format("{} × {}", job.sequence.name, job.configuration.name);
     if (!flags_.run.quiet) std::cerr << fmt::format("[{}/{}] {}\n", bench_.run + 1, bench_.planned, name);
     const bool with_peers = peers_done_.count(job.sequence.name) == 0;
-    const std::vector<BenchCell> cells = run_cell(job.sequence, job.configuration, flags_.run, with_peers);
+    const std::vector<BenchCell> cells = run_cell_apart(job.sequence, job.configuration, flags_.run, with_peers);
     if (cells.empty()) return;  // interrupted
     ++bench_.run;
     if (cells.front().failed()) {
@@ -234,8 +236,8 @@ void add_paper_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags
 
 int bench_command(const CLI::App& command, const BenchFlags& flags) {
   if (command.got_subcommand("kitti") || command.got_subcommand("m2dgr")) {
-    if (!flags.plan.empty() || !flags.data.empty()) {
-      throw CommandError(kUsage, "bench: FILE and --data do not go with kitti or m2dgr. See: rilo bench --help");
+    if (!flags.plan.empty() || !flags.data.empty() || command.count("--root") > 0) {
+      throw CommandError(kUsage, "bench: FILE, --root and --data do not go with kitti or m2dgr. See: rilo bench --help");
     }
     const bool kitti = command.got_subcommand("kitti");
     const BenchConfiguration configuration = configuration_of(flags);
@@ -254,6 +256,8 @@ void add_bench_command(CLI::App& app, const std::string& command_line, int& exit
   CLI::App* command = app.add_subcommand("bench", "several configurations on several sequences");
   command->footer(kFooter);
   command->add_option("FILE", flags->plan, "YAML with sequences and configurations")->check(path_given());
+  command->add_option("--root", flags->root, "folder that the paths of FILE's sequences count from; default: FILE's")
+      ->check(path_given());
   command->add_option("--data", flags->data, "folders or files with sweeps, in the place of FILE's sequences")
       ->check(path_given());
   add_common_flags(*command, *flags);

@@ -15,7 +15,8 @@ struct BenchJob {
   BenchConfiguration configuration;
 };
 
-/// ROOT/sequences/00 … 10, those that exist, each as recorded and with KITTI's elevation correction.
+/// ROOT/sequences/00 … 10, those that exist, each as recorded and with KITTI's elevation correction, both without
+/// Rilo's own estimate of it; and as recorded with that estimate, if the configuration has it on.
 /// @throws CommandError(kBadData) when there is none.
 std::vector<BenchJob> kitti_jobs(const std::filesystem::path& root, const BenchConfiguration& configuration);
 

@@ -85,7 +85,8 @@ const std::vector<BenchFigure>& bench_figures() {
       {"mean_iterations", "iterations", "/mean_iterations", 2},
       {"selection_rate_pct", "selected %", "/selection_rate_pct", 2},
       {"coarse_rate_pct", "coarse %", "/coarse_rate_pct", 2},
-      {"peak_rss_mb", "peak MiB", "/peak_rss_mb", 0}};
+      {"peak_rss_mb", "peak MiB", "/peak_rss_mb", 0},
+      {"elevation_offset_applied_deg", "own °", "/elevation_offset_applied_deg", 3}};
   return kFigures;
 }
 

@@ -45,7 +45,7 @@ TitledTable accuracy(const std::vector<BenchCell>& cells) {
   result.table.left = 2;
   result.table.header = {"sequence", "configuration", "poses"};
   add_titles(result.table, kAccuracy);
-  result.table.header.insert(result.table.header.end(), {"instant", "truth at", "elevation °"});
+  result.table.header.insert(result.table.header.end(), {"instant", "truth at", "given °", "own °"});
   for (const BenchCell& cell : cells) {
     std::vector<std::string> row = {cell.sequence, cell.configuration,
                                     cell.failed() ? "failed" : text_at(cell.metrics, "/evaluation/poses")};
@@ -53,11 +53,12 @@ TitledTable accuracy(const std::vector<BenchCell>& cells) {
     for (const char* place : {"/pose_instant", "/evaluation/truth_instant", "/elevation_correction_deg"}) {
       row.push_back(text_at(cell.metrics, place));
     }
+    add_values(row, cell, {"elevation_offset_applied_deg"});
     result.table.rows.push_back(row);
   }
   result.note =
-      "APE after SE(3) alignment, unaligned with the first poses made equal; RPE a sweep, rmse; elevation: degrees "
-      "that were added to the points' elevation angles.";
+      "APE after SE(3) alignment, unaligned with the first poses made equal; RPE a sweep, rmse; given °: added to the "
+      "points' elevation angles as told; own °: added on top of it, found by Rilo itself, at the last sweep.";
   return result;
 }
 

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <fstream>
 #include <new>
 #include <optional>
 #include <string>
+#include <sys/resource.h>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "interrupt.hpp"
-#include "process_memory.hpp"
 #include "progress.hpp"
 #include "rilo/cloud/thinned_map.hpp"
 #include "rilo/io/io_error.hpp"
@@ -27,6 +28,19 @@ constexpr double kPictureVoxelM = 0.75;  // enough for the report's picture of t
 std::int64_t steady_ns() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+// Of this program alone: getrusage may give the peak of the process that started it.
+double peak_rss_mb() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  double kib = 0;
+  while (status >> word) {
+    if (word == "VmHWM:" && status >> kib) return kib / 1024.0;
+  }
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
 std::optional<std::size_t> sweeps_to_do(const RunFlags& flags, const ScanSource& source) {

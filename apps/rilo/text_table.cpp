@@ -47,7 +47,8 @@ std::string TextTable::plain() const {
     for (std::size_t i = 0; i < header.size(); ++i) {
       const std::string cell = one_line(cell_of(row, i));
       const std::string blanks(widths[i] - width(cell), ' ');
-      text += (i == 0 ? "" : "  ") + (i < left ? cell + blanks : blanks + cell);
+      if (i > 0) text += "  ";
+      text += i < left ? cell + blanks : blanks + cell;
     }
     text.erase(text.find_last_not_of(' ') + 1);
     return text + "\n";
@@ -60,7 +61,11 @@ std::string TextTable::plain() const {
 std::string TextTable::markdown() const {
   const auto line = [&](const std::vector<std::string>& row) {
     std::string text = "|";
-    for (std::size_t i = 0; i < header.size(); ++i) text += " " + escaped(cell_of(row, i)) + " |";
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      text += ' ';
+      text += escaped(cell_of(row, i));
+      text += " |";
+    }
     return text + "\n";
   };
   std::string text = line(header) + "|";
@@ -73,7 +78,10 @@ std::string TextTable::markdown() const {
 std::string TextTable::csv() const {
   const auto line = [&](const std::vector<std::string>& row) {
     std::string text;
-    for (std::size_t i = 0; i < header.size(); ++i) text += (i == 0 ? "" : ",") + csv_cell(cell_of(row, i));
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      if (i > 0) text += ',';
+      text += csv_cell(cell_of(row, i));
+    }
     return text + "\n";
   };
   std::string text = line(header);

@@ -24,7 +24,8 @@ constexpr const char* kHint = "docs/bench.md shows how the file looks";
 
 class PlanReader {
  public:
-  explicit PlanReader(fs::path file) : file_(std::move(file)) {}
+  PlanReader(fs::path file, const fs::path& root)
+      : file_(std::move(file)), root_(root.empty() ? file_.parent_path() : root) {}
 
   BenchPlan read(const YAML::Node& root) const {
     BenchPlan plan;
@@ -85,7 +86,7 @@ class PlanReader {
   BenchSequence item(const Node& map, const BenchSequence* /*kind*/) const {
     BenchSequence s;
     const auto file = [this](const char* key, fs::path& member) {
-      return std::pair(std::string(key), [this, key, &member](const Node& n) { member = path(n, key); });
+      return std::pair(std::string(key), [this, key, &member](const Node& n) { member = path(n, key, root_); });
     };
     const auto whole = [this](const char* key, std::size_t& member) {
       return std::pair(std::string(key), [this, key, &member](const Node& n) { member = count(n, key); });
@@ -125,7 +126,7 @@ class PlanReader {
   }
 
   void load_file(const Node& node, BenchConfiguration& c) const {
-    const fs::path file = path(node, "config");
+    const fs::path file = path(node, "config", file_.parent_path());
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) {
       refuse(node, "there is no file " + detail::quoted(file.string()), "a configuration file (YAML)",
@@ -166,7 +167,7 @@ class PlanReader {
         refuse(pair.first, "the peer " + detail::quoted(pair.first.Scalar()) + " a second time", "each peer once");
       }
       if (pair.second.IsNull()) refuse(pair.first, "the peer has no value", "a path");
-      result.push_back({pair.first.Scalar(), path(pair.second, "the peer's file")});
+      result.push_back({pair.first.Scalar(), path(pair.second, "the peer's file", root_)});
     }
     return result;
   }
@@ -176,9 +177,9 @@ class PlanReader {
     return node.Scalar();
   }
 
-  fs::path path(const Node& node, const std::string& what) const {
+  fs::path path(const Node& node, const std::string& what, const fs::path& folder) const {
     if (!node.IsScalar() || node.Scalar().empty()) refuse(node, what + " is " + kind_of(node), "a path");
-    return (file_.parent_path() / node.Scalar()).lexically_normal();
+    return (folder / node.Scalar()).lexically_normal();
   }
 
   template <typename Number>
@@ -223,20 +224,21 @@ class PlanReader {
   }
 
   fs::path file_;
+  fs::path root_;  // of sequences
 };
 
 }  // namespace
 
-BenchPlan parse_bench_plan(std::string_view yaml, const fs::path& file) {
+BenchPlan parse_bench_plan(std::string_view yaml, const fs::path& file, const fs::path& root) {
   try {
-    return PlanReader(file).read(detail::parse_yaml(yaml, file.string(), kHint));
+    return PlanReader(file, root).read(detail::parse_yaml(yaml, file.string(), kHint));
   } catch (const YAML::Exception& error) {  // of nodes that yaml-cpp cannot make sense of
     throw ConfigError({file, position_of(error.mark), "this is no YAML (" + error.msg + ")", "a plan", kHint});
   }
 }
 
-BenchPlan load_bench_plan(const fs::path& file) {
-  return parse_bench_plan(detail::read_yaml_file(file, "a benchmark plan (YAML)", kHint), file);
+BenchPlan load_bench_plan(const fs::path& file, const fs::path& root) {
+  return parse_bench_plan(detail::read_yaml_file(file, "a benchmark plan (YAML)", kHint), file, root);
 }
 
 }  // namespace rilo

@@ -46,13 +46,15 @@ struct BenchPlan {
   std::vector<BenchConfiguration> configurations;  ///< never empty
 };
 
-/// Reads a plan; docs/bench.md describes the file. Relative paths count from its folder. Configurations are loaded at
-/// once, sequences are not looked for. Without `configurations:` there is one, "default".
+/// Reads a plan; docs/bench.md describes the file. Relative paths of sequences count from `root`, or from the file's
+/// folder when that is empty; those of configurations always from the file's folder. Configurations are loaded at once,
+/// sequences are not looked for. Without `configurations:` there is one, "default".
 /// @throws ConfigError with line and column: no YAML, unknown or repeated key or name, wrong type, a configuration that
 /// cannot be loaded.
-BenchPlan load_bench_plan(const std::filesystem::path& file);
+BenchPlan load_bench_plan(const std::filesystem::path& file, const std::filesystem::path& root = {});
 
 /// The same from text; `file` stands in messages and gives the folder.
-BenchPlan parse_bench_plan(std::string_view yaml, const std::filesystem::path& file);
+BenchPlan parse_bench_plan(std::string_view yaml, const std::filesystem::path& file,
+                           const std::filesystem::path& root = {});
 
 }  // namespace rilo

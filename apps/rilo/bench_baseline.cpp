@@ -53,11 +53,13 @@ nlohmann::json read_baseline(const std::filesystem::path& file) {
   }
   if (!json.is_object() || json.value("rilo_bench", nlohmann::json()) != 1 || !json.contains("cells") ||
       !json["cells"].is_array()) {
-    throw IoError({file, "", "JSON of another kind", std::string(kExpected) + " (\"rilo_bench\": 1 and a list cells)", ""});
+    throw IoError(
+        {file, "", "JSON of another kind", std::string(kExpected) + " (\"rilo_bench\": 1 and a list cells)", ""});
   }
   for (std::size_t i = 0; i < json["cells"].size(); ++i) {
     if (is_cell(json["cells"][i])) continue;
-    throw IoError({file, fmt::format("cell {}", i + 1), "a cell without sequence, configuration or figures", kExpected, ""});
+    throw IoError(
+        {file, fmt::format("cell {}", i + 1), "a cell without sequence, configuration or figures", kExpected, ""});
   }
   return json;
 }

@@ -32,7 +32,7 @@ struct BenchRunFlags {
   std::size_t count = 0;  ///< sweeps of every sequence; 0: as the plan says
   int threads = -1;       ///< -1: as configured
   bool quiet = false;
-  SourceFlags source;     ///< where the plan does not say otherwise
+  SourceFlags source;  ///< where the plan does not say otherwise
 };
 
 /// Runs one cell, then, if `with_peers`, compares the sequence's peers on the same sweeps. Whatever goes wrong stands

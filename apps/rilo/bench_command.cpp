@@ -42,15 +42,17 @@ Examples:
 
 constexpr const char* kKittiFooter =
     R"(ROOT/sequences/00/velodyne …, ROOT/sequences/00/calib.txt and ROOT/poses/00.txt as in the KITTI odometry data set;
-those of 00 … 10 that exist are run, each with elevation corrections of 0 and 0.205 degrees.
+those of 00 … 10 that exist are run, each three times: with elevation corrections of 0 and of 0.205 degrees, both with
+elevation.enabled=false as the paper has nothing like it, and as Rilo runs by default, with its own estimate.
 
 Example:
   rilo bench kitti data/kitti --out results/kitti)";
 
 constexpr const char* kM2dgrFooter =
-    R"(There is no reader of bags: unpack each sequence into a folder ROOT/NAME/ of sweeps that rilo run can open (.pcd, .ply
-or .bin, with stamps), with its true poses in ROOT/NAME.txt (TUM form, as M2DGR provides them). hall_01, hall_02, hall_03,
-room_01, door_01 and lift_01 are those of the paper's table.
+    R"(Each sequence is a folder ROOT/NAME/ of sweeps that rilo run can open (.pcd, .ply or .bin, with stamps in times.txt
+or in the files' names), with its true poses in ROOT/NAME.txt (TUM form, as M2DGR provides them). A bag ROOT/NAME.bag
+without such a folder fails with the reason: unpack it. hall_01, hall_02, hall_03, room_01, door_01 and lift_01 are those
+of the paper's table.
 
 Example:
   rilo bench m2dgr data/m2dgr --out results/m2dgr)";
@@ -237,7 +239,8 @@ void add_paper_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags
 int bench_command(const CLI::App& command, const BenchFlags& flags) {
   if (command.got_subcommand("kitti") || command.got_subcommand("m2dgr")) {
     if (!flags.plan.empty() || !flags.data.empty() || command.count("--root") > 0) {
-      throw CommandError(kUsage, "bench: FILE, --root and --data do not go with kitti or m2dgr. See: rilo bench --help");
+      throw CommandError(kUsage,
+                         "bench: FILE, --root and --data do not go with kitti or m2dgr. See: rilo bench --help");
     }
     const bool kitti = command.got_subcommand("kitti");
     const BenchConfiguration configuration = configuration_of(flags);

@@ -23,7 +23,8 @@ std::vector<BenchJob> kitti_jobs(const std::filesystem::path& root, const BenchC
 /// Tables I and II, our columns beside the paper's.
 std::vector<TitledTable> kitti_tables(const std::vector<BenchCell>& cells);
 
-/// ROOT/NAME/ with sweeps and ROOT/NAME.txt with the true poses (TUM form), for every NAME.
+/// ROOT/NAME/ with sweeps, or ROOT/NAME.bag, and ROOT/NAME.txt with the true poses (TUM form), for every NAME that has
+/// such poses or is in Table III. What cannot be read fails in its cell.
 /// @throws CommandError(kBadData) when there is none.
 std::vector<BenchJob> m2dgr_jobs(const std::filesystem::path& root, const BenchConfiguration& configuration);
 

@@ -88,7 +88,8 @@ int end_of(pid_t child) {
 }
 
 std::string reason_of(int status) {
-  if (!WIFSIGNALED(status)) return fmt::format("its process ended with code {} and left no result", WEXITSTATUS(status));
+  if (!WIFSIGNALED(status))
+    return fmt::format("its process ended with code {} and left no result", WEXITSTATUS(status));
   const int signal = WTERMSIG(status);
   return fmt::format("its process was ended by signal {} ({}){}", signal, strsignal(signal),
                      signal == SIGKILL ? "; the memory may be exhausted" : "");
@@ -131,17 +132,22 @@ KittiError unpacked_kitti(const nlohmann::json& json) {
 }  // namespace
 
 nlohmann::json packed(const BenchCell& cell) {
-  nlohmann::json json = {{"sequence", cell.sequence}, {"configuration", cell.configuration}, {"peer", cell.peer},
-                         {"settings", cell.settings}, {"metrics", cell.metrics},             {"error", cell.error},
+  nlohmann::json json = {{"sequence", cell.sequence},
+                         {"configuration", cell.configuration},
+                         {"peer", cell.peer},
+                         {"settings", cell.settings},
+                         {"metrics", cell.metrics},
+                         {"error", cell.error},
                          {"error_code", static_cast<int>(cell.error_code)}};
   if (cell.kitti) json["kitti"] = packed_kitti(*cell.kitti);
   return json;
 }
 
 BenchCell unpacked(const nlohmann::json& json) {
-  BenchCell cell{json.at("sequence"), json.at("configuration"), json.at("peer"), json.at("settings"),
-                 json.at("metrics"),  std::nullopt,             json.at("error"),
-                 static_cast<ExitCode>(json.at("error_code").get<int>())};
+  BenchCell cell{json.at("sequence"), json.at("configuration"),
+                 json.at("peer"),     json.at("settings"),
+                 json.at("metrics"),  std::nullopt,
+                 json.at("error"),    static_cast<ExitCode>(json.at("error_code").get<int>())};
   if (json.contains("kitti")) cell.kitti = unpacked_kitti(json["kitti"]);
   return cell;
 }

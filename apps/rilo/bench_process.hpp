@@ -10,7 +10,8 @@
 namespace rilo::cli {
 
 /// run_cell in a child process: the peak memory is that of the cell, and a cell that crashes or runs out of memory
-/// fails alone. Empty when InterruptGuard has a signal; the child is ended then. Must not be called with threads running.
+/// fails alone. Empty when InterruptGuard has a signal; the child is ended then. Must not be called with threads
+/// running.
 std::vector<BenchCell> run_cell_apart(const BenchSequence& sequence, const BenchConfiguration& configuration,
                                       const BenchRunFlags& flags, bool with_peers);
 

@@ -31,9 +31,9 @@ std::optional<double> value_of(const BenchCell& cell, const BenchFigure& figure)
 struct BenchSummary {
   std::string configuration;
   bool peer = false;
-  std::size_t cells = 0;   ///< that succeeded
-  std::size_t failed = 0;  ///< that did not
-  KittiBenchmark kitti;    ///< pooled over all segments of all sequences
+  std::size_t cells = 0;                     ///< that succeeded
+  std::size_t failed = 0;                    ///< that did not
+  KittiBenchmark kitti;                      ///< pooled over all segments of all sequences
   std::vector<std::optional<double>> means;  ///< mean over the sequences, in the order of bench_figures()
 };
 

@@ -1,5 +1,7 @@
 #include "bench_tables.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace rilo::cli {
@@ -8,9 +10,9 @@ namespace {
 
 const std::vector<std::string> kAccuracy = {"t_rel_pct",  "r_rel_deg_per_100m",   "ape_rmse_m",
                                             "ape_mean_m", "ape_unaligned_rmse_m", "rpe_frame_rmse_m"};
-const std::vector<std::string> kEffort = {"ms_mean", "ms_median",       "ms_p95",             "ms_p99",
-                                          "ms_max",  "mean_iterations", "selection_rate_pct", "coarse_rate_pct",
-                                          "peak_rss_mb"};
+const std::vector<std::string> kEffort = {
+    "ms_mean",         "ms_median",          "ms_p95",          "ms_p99",     "ms_max",
+    "mean_iterations", "selection_rate_pct", "coarse_rate_pct", "peak_rss_mb"};
 
 void add_titles(TextTable& table, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) table.header.emplace_back(bench_figure(key).title);
@@ -76,8 +78,9 @@ TitledTable effort(const std::vector<BenchCell>& cells) {
     row.push_back(statuses(cell.metrics));
     result.table.rows.push_back(row);
   }
-  result.note = "Milliseconds a sweep without reading. selected: sweeps that began with the coarse result; coarse: that "
-                "ran the coarse stage.";
+  result.note =
+      "Milliseconds a sweep without reading. selected: sweeps that began with the coarse result; coarse: that "
+      "ran the coarse stage.";
   return result;
 }
 
@@ -90,8 +93,7 @@ TitledTable averages(const std::vector<BenchCell>& cells) {
   for (const BenchSummary& summary : summaries(cells)) {
     const std::size_t all = summary.cells + summary.failed;
     std::vector<std::string> row = {
-        summary.configuration,
-        summary.failed == 0 ? std::to_string(all) : fmt::format("{} of {}", summary.cells, all),
+        summary.configuration, summary.failed == 0 ? std::to_string(all) : fmt::format("{} of {}", summary.cells, all),
         shown(summary.kitti.pooled_t_rel_pct, 4), shown(summary.kitti.pooled_r_rel_deg_100m, 4)};
     for (const std::string& key : keys) {
       const BenchFigure& figure = bench_figure(key);
@@ -99,7 +101,31 @@ TitledTable averages(const std::vector<BenchCell>& cells) {
     }
     result.table.rows.push_back(row);
   }
-  result.note = "Pooled: over all segments of all sequences (KITTI devkit). All others: mean of the sequences' figures.";
+  result.note =
+      "Pooled: over all segments of all sequences (KITTI devkit). All others: mean of the sequences' figures.";
+  return result;
+}
+
+// A row a sequence, a column a configuration: what an experiment is read from.
+TitledTable by_sequence(const std::vector<BenchCell>& cells, const std::vector<BenchSummary>& columns,
+                        const std::string& key) {
+  const BenchFigure& figure = bench_figure(key);
+  TitledTable result{fmt::format("{} of each sequence", figure.title), {}, ""};
+  result.table.header = {"sequence"};
+  for (const BenchSummary& column : columns) result.table.header.push_back(column.configuration);
+  for (const BenchCell& cell : cells) {
+    auto& rows = result.table.rows;
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r[0] == cell.sequence; });
+    if (row == rows.end()) {
+      row = rows.insert(rows.end(), std::vector<std::string>(columns.size() + 1));
+      row->front() = cell.sequence;
+    }
+    const auto column = std::find_if(columns.begin(), columns.end(), [&](const BenchSummary& c) {
+      return c.configuration == cell.configuration && c.peer == cell.peer;
+    });
+    (*row)[static_cast<std::size_t>(column - columns.begin()) + 1] =
+        cell.failed() ? "failed" : shown(value_of(cell, figure), figure.digits);
+  }
   return result;
 }
 
@@ -124,6 +150,11 @@ std::vector<TitledTable> bench_tables(const std::vector<BenchCell>& cells) {
   std::vector<TitledTable> tables = {accuracy(cells), effort(cells), averages(cells)};
   const std::string failed = failures(cells);
   if (!failed.empty()) tables.back().note += "\n" + failed.substr(0, failed.size() - 1);
+  const std::vector<BenchSummary> columns = summaries(cells);
+  if (columns.size() > 1) {
+    tables.push_back(by_sequence(cells, columns, "t_rel_pct"));
+    tables.push_back(by_sequence(cells, columns, "ape_rmse_m"));
+  }
   return tables;
 }
 

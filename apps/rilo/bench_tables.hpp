@@ -19,7 +19,8 @@ struct TitledTable {
 /// "0.1234"; "-" without a value.
 std::string shown(const std::optional<double>& value, int digits);
 
-/// Accuracy and effort of each cell, averages of each configuration, and the cells that failed.
+/// Accuracy and effort of each cell, averages of each configuration, the cells that failed; with several configurations
+/// also t_rel and APE by sequence and configuration.
 std::vector<TitledTable> bench_tables(const std::vector<BenchCell>& cells);
 
 /// Every figure of every cell and of the averages: results.csv.

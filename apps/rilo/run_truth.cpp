@@ -41,7 +41,8 @@ PosesOfSweeps by_stamp(const PoseFile& file, const RunRecord& run, double max_ga
   for (const SweepResult& result : run.results) sweeps.push_back({result.stamp_ns, result.T_odom_lidar});
   PosesOfSweeps poses(sweeps.size());
   try {
-    const auto matched = match_by_stamp(file.trajectory, sweeps, static_cast<std::int64_t>(std::llround(max_gap_s * 1e9)));
+    const auto matched =
+        match_by_stamp(file.trajectory, sweeps, static_cast<std::int64_t>(std::llround(max_gap_s * 1e9)));
     for (std::size_t i = 0; i < matched.truth.size(); ++i) poses[matched.estimate_index[i]] = matched.truth[i];
   } catch (const std::invalid_argument& error) {
     throw CommandError(kBadData, file.file.string() + ": " + error.what());

@@ -35,6 +35,7 @@ class PlanReader {
               {"configurations",
                [&](const Node& node) { plan.configurations = list<BenchConfiguration>(node, "configurations"); }}});
     if (plan.configurations.empty()) plan.configurations.push_back({"default", {}, {}});
+    check_peer_names(root, plan);
     return plan;
   }
 
@@ -67,6 +68,20 @@ class PlanReader {
     if (!needed.empty() && seen.count(needed) == 0) refuse(map, what + " without " + needed, needed + ": in it");
   }
 
+  // Results are looked up by these names.
+  void check_peer_names(const Node& root, const BenchPlan& plan) const {
+    for (const BenchSequence& sequence : plan.sequences) {
+      for (const BenchPeer& peer : sequence.peers) {
+        const bool taken = std::any_of(plan.configurations.begin(), plan.configurations.end(),
+                                       [&](const BenchConfiguration& c) { return c.name == peer.name; });
+        if (taken) {
+          refuse(root, detail::quoted(peer.name) + " is both a configuration and a peer of " + sequence.name,
+                 "names that differ");
+        }
+      }
+    }
+  }
+
   template <typename Item>
   std::vector<Item> list(const Node& node, const std::string& what) const {
     if (!node.IsSequence()) refuse(node, what + " is " + kind_of(node), "a list");
@@ -76,7 +91,8 @@ class PlanReader {
       if (!entry.IsMap()) refuse(entry, kind_of(entry), "a map with name: and more in the list " + what);
       items.push_back(item(entry, static_cast<const Item*>(nullptr)));
       if (!names.insert(items.back().name).second) {
-        refuse(entry, "the name " + detail::quoted(items.back().name) + " a second time", "names that differ in " + what);
+        refuse(entry, "the name " + detail::quoted(items.back().name) + " a second time",
+               "names that differ in " + what);
       }
     }
     if (items.empty()) refuse(node, what + " is an empty list", "at least one entry");

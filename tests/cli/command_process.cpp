@@ -73,7 +73,8 @@ bool CommandProcess::wait_until(const std::function<bool()>& condition) {
 }
 
 Outcome CommandProcess::wait() {
-  if (!wait_until([this] { return ended(); })) {
+  // It may end between the two looks of wait_until.
+  if (!wait_until([this] { return ended(); }) && !reaped_) {
     ADD_FAILURE() << "the command hangs";
     send(SIGKILL);
     reaped_ = ::waitpid(pid_, &status_, 0) == pid_;

@@ -1,5 +1,7 @@
 // rilo bench FILE.
 #include <csignal>
+#include <fstream>
+#include <sys/types.h>
 
 #include <gmock/gmock.h>
 
@@ -154,6 +156,32 @@ TEST(BenchCommand, InterruptedItKeepsWhatIsFinished) {
     ASSERT_EQ(results["cells"].size(), 1U);
     EXPECT_EQ(results["cells"][0]["sequence"], "quick");
   }
+}
+
+// The process of the cell that runs; 0: none.
+pid_t child_of(pid_t parent) {
+  const std::string number = std::to_string(parent);
+  std::ifstream children("/proc/" + number + "/task/" + number + "/children");
+  pid_t child = 0;
+  children >> child;
+  return child;
+}
+
+TEST(BenchCommand, ACellWhoseProcessIsKilledFailsAlone) {
+  const TempDir folder;
+  const auto plan = folder.write(
+      "plan.yaml", "sequences:\n" + sequence("endless", long_folder(folder, 3000)) + sequence("quick", shared_drive()));
+  CommandProcess bench({"bench", plan, "--out", folder / "out", "--threads", "1", "--quiet"});
+  pid_t child = 0;
+  ASSERT_TRUE(bench.wait_until([&] { return (child = child_of(bench.pid())) > 0; }));
+  ::kill(child, SIGKILL);
+  const Outcome outcome = bench.wait();
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("signal 9"));
+  const json results = json_file(folder / "out" / "results.json");
+  ASSERT_EQ(results["cells"].size(), 2U);
+  EXPECT_THAT(cell_of(results, "endless", "default")["error"].get<std::string>(), HasSubstr("memory"));
+  EXPECT_FALSE(cell_of(results, "quick", "default").contains("error"));
 }
 
 TEST(BenchCommand, WrongPlansEndBeforeAnythingIsRun) {

@@ -66,15 +66,14 @@ bool CommandProcess::ended() {
 bool CommandProcess::wait_until(const std::function<bool()>& condition) {
   while (std::chrono::steady_clock::now() < deadline_) {
     if (condition()) return true;
-    if (ended()) return false;
+    if (ended()) return condition();  // it may have come true in between
     std::this_thread::sleep_for(kPoll);
   }
   return false;
 }
 
 Outcome CommandProcess::wait() {
-  // It may end between the two looks of wait_until.
-  if (!wait_until([this] { return ended(); }) && !reaped_) {
+  if (!wait_until([this] { return ended(); })) {
     ADD_FAILURE() << "the command hangs";
     send(SIGKILL);
     reaped_ = ::waitpid(pid_, &status_, 0) == pid_;

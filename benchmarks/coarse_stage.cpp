@@ -33,21 +33,27 @@ void distribution_cloud(benchmark::State& state) {
 }
 BENCHMARK(distribution_cloud)->Unit(benchmark::kMicrosecond);
 
-/// From no motion at all.
-void align(benchmark::State& state) {
+void align_from(benchmark::State& state, const SE3& start) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const CoarseRegistrationConfig config;
   const auto source = make_distribution_cloud(coarse_points(scene().source_compensated, config), config);
   const auto target = make_distribution_cloud(coarse_points(scene().before_compensated, config), config);
   CoarseResult result;
   for (auto _ : state) {
-    result = coarse_registration(source, target, SE3::Identity(), config);
+    result = coarse_registration(source, target, start, config);
     benchmark::DoNotOptimize(result.iterations);
   }
   state.counters["iterations"] = result.iterations;
   state.counters["error_m"] = (scene().T_before_last.inverse() * result.T_target_source).translation().norm();
 }
-BENCHMARK(align)->Unit(benchmark::kMicrosecond);
+
+/// From the true motion, as a good prediction would give.
+void align_from_truth(benchmark::State& state) { align_from(state, scene().T_before_last); }
+BENCHMARK(align_from_truth)->Unit(benchmark::kMicrosecond);
+
+/// From no motion at all: a metre off.
+void align_from_rest(benchmark::State& state) { align_from(state, SE3::Identity()); }
+BENCHMARK(align_from_rest)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace rilo::bench

@@ -15,14 +15,14 @@ void linearise_all(benchmark::State& state) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const OdometryConfig config;
   const auto stride = static_cast<std::size_t>(state.range(0));
+  const TimedCloud& source = scene().last.source;
   std::size_t inliers = 0;
   for (auto _ : state) {
-    const NormalEquations sums =
-        linearise(scene().last.source, scene().map, scene().state, kSigmaM, config.icp, stride);
+    const NormalEquations sums = linearise(source, scene().map, scene().state, kSigmaM, config.icp, stride);
     inliers = sums.count;
     benchmark::DoNotOptimize(inliers);
   }
-  state.SetItemsProcessed(static_cast<std::int64_t>(scene().last.source.size() / stride) * state.iterations());
+  state.SetItemsProcessed(static_cast<std::int64_t>(source.size() / stride) * state.iterations());
   state.counters["inliers"] = static_cast<double>(inliers);
 }
 BENCHMARK(linearise_all)->ArgName("stride")->Arg(1)->Arg(4)->Unit(benchmark::kMicrosecond);

@@ -17,7 +17,7 @@ std::vector<Eigen::Vector3f> compensated(const TimedCloud& cloud, const Vector6d
 }  // namespace
 
 const std::vector<SimulatedSweep>& drive() {
-  static const std::vector<SimulatedSweep> sweeps = [] {
+  static const std::vector<SimulatedSweep> kDrive = [] {
     DriveConfig config;
     config.sweeps = kSweeps;
     config.start_s = kDrivingS;
@@ -28,7 +28,7 @@ const std::vector<SimulatedSweep>& drive() {
     }
     return made;
   }();
-  return sweeps;
+  return kDrive;
 }
 
 OdometryConfig single_thread() {
@@ -62,8 +62,8 @@ Scene::Scene() : map(OdometryConfig().map) {
 }
 
 const Scene& scene() {
-  static const Scene made;
-  return made;
+  static const Scene kScene;
+  return kScene;
 }
 
 }  // namespace rilo::bench

@@ -14,12 +14,12 @@ namespace {
 using Study = void (*)(const rilo::bench::StudySize&, std::ostream&);
 
 const std::map<std::string, Study>& studies() {
-  static const std::map<std::string, Study> all = {{"points", rilo::bench::study_points},
-                                                   {"map", rilo::bench::study_map},
-                                                   {"threads", rilo::bench::study_threads},
-                                                   {"speed", rilo::bench::study_speed},
-                                                   {"memory", rilo::bench::study_memory}};
-  return all;
+  static const std::map<std::string, Study> kAll = {{"points", rilo::bench::study_points},
+                                                    {"map", rilo::bench::study_map},
+                                                    {"threads", rilo::bench::study_threads},
+                                                    {"speed", rilo::bench::study_speed},
+                                                    {"memory", rilo::bench::study_memory}};
+  return kAll;
 }
 
 }  // namespace

@@ -16,8 +16,15 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
+/// The voxels that the scenes are made for.
+LocalMapConfig map_config() {
+  LocalMapConfig config;
+  config.voxel_m = 0.25;
+  return config;
+}
+
 struct Room {
-  LocalMap map{LocalMapConfig{}};
+  LocalMap map{map_config()};
   IcpResult icp;
   std::vector<Eigen::Vector3f> points;
 };

@@ -171,7 +171,8 @@ std::vector<BenchCell> run_cell_apart(const BenchSequence& sequence, const Bench
   const auto bytes = receive(from.number());
   if (!bytes) kill(child, SIGKILL);
   const int status = end_of(child);
-  if (!bytes) return {};
+  // Ctrl-C goes to both; the child may be gone before we notice our own.
+  if (!bytes || (WIFSIGNALED(status) && InterruptGuard::signal() != 0)) return {};
   if (status == 0) return parsed(*bytes);
   return {{sequence.name, configuration.name, false, configuration.settings, {}, {}, reason_of(status), kUnexpected}};
 }

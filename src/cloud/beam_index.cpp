@@ -7,6 +7,7 @@ namespace rilo {
 
 namespace {
 
+constexpr float kMiddle = 0.5F * static_cast<float>(kBeams);  // index of the horizon
 constexpr float kTangentStep = 0.0026F;  // 0.15° at the horizon: no sensor's beams lie much closer
 constexpr std::size_t kFewestTurns = 4;
 constexpr double kLargestShare = 0.25;  // of the variance of the tangents, within turns that are beams
@@ -16,7 +17,7 @@ constexpr float kSeamSine = 0.0698F;
 constexpr int kQuadrants = 4;
 
 Beam beam_of(float tangent) {
-  const float bin = std::floor(tangent / kTangentStep) + static_cast<float>(kBeams / 2);
+  const float bin = std::floor(tangent / kTangentStep) + kMiddle;
   return bin >= 0.0F && bin < static_cast<float>(kBeams) ? static_cast<Beam>(bin) : kNoBeam;
 }
 

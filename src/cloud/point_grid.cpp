@@ -91,13 +91,17 @@ void PointGrid::visit_ring(const Eigen::Vector3f& p, const VoxelIndex& centre, i
   }
 }
 
-bool PointGrid::nearest(const Eigen::Vector3f& p, double max_distance_m, Neighbour& found) const {
+bool PointGrid::nearest(const Eigen::Vector3f& p, double max_distance_m, Neighbour& found, std::uint32_t guess) const {
   if (points_.empty()) {
     return false;
   }
   const VoxelIndex centre = voxel_of(p, inverse_);
   const auto limit2 = static_cast<float>(max_distance_m * max_distance_m);
-  Neighbour best{0xFFFFFFFFU, limit2};
+  Neighbour best{kNoPoint, limit2};
+  if (guess != kNoPoint) {
+    const Neighbour guessed{guess, (points_[guess] - p).squaredNorm()};
+    best = closer(guessed, best) ? guessed : best;
+  }
   const int rings = static_cast<int>(std::ceil(max_distance_m * inverse_));
   for (int ring = 0; ring <= rings; ++ring) {
     visit_ring(p, centre, ring, best.distance2, [&](std::uint32_t index, float distance2) {
@@ -108,12 +112,12 @@ bool PointGrid::nearest(const Eigen::Vector3f& p, double max_distance_m, Neighbo
     });
     // A point of the next ring is at least `ring` cells away.
     const double reach = ring * cell_m_;
-    if (best.index != 0xFFFFFFFFU && static_cast<double>(best.distance2) <= reach * reach) {
+    if (best.index != kNoPoint && static_cast<double>(best.distance2) <= reach * reach) {
       break;
     }
   }
   found = best;
-  return best.index != 0xFFFFFFFFU;
+  return best.index != kNoPoint;
 }
 
 void PointGrid::nearest(const Eigen::Vector3f& p, std::size_t k, double max_distance_m,

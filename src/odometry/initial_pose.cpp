@@ -1,5 +1,7 @@
 #include "rilo/odometry/initial_pose.hpp"
 
+#include <utility>
+
 #include "rilo/cloud/deskew.hpp"
 #include "rilo/registration/map_score.hpp"
 
@@ -13,6 +15,11 @@ constexpr double kSearchSigmaM = 0.3;
 constexpr double kSearchShiftStepM = 0.5;
 constexpr double kSearchYawStepRad = 0.1;
 constexpr std::size_t kSearchStarts = 4;
+// A cloud compensated for a slightly wrong velocity is as good a target: at either end of a sweep of 0.1 s its points
+// are off by less than the least noise of the coarse stage.
+constexpr double kHalfSweepS = 0.05;
+constexpr double kSameTurnRad = 0.005;
+constexpr double kSameShiftM = 0.05;
 }  // namespace
 
 InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse,
@@ -48,12 +55,15 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
   if (!doubt && !coarse_.always) {
     return choice;
   }
-  const DistributionCloud moving = distribution(compensated_);
-  const DistributionCloud target = distribution(target_);
+  moving_ = distribution(compensated_);
+  moving_twist_ = predicted.twist;
+  if (!target_) {
+    target_ = distribution(target_points_);
+  }
   ScoredPose best{prediction.T_odom_lidar, -1.0};
   int iterations = 0;
   const auto try_from = [&](const SE3& start) {
-    const CoarseResult result = coarse_registration(moving, target, previous.inverse() * start, coarse_);
+    const CoarseResult result = coarse_registration(*moving_, *target_, previous.inverse() * start, coarse_);
     iterations += result.iterations;
     // Each candidate implies its own motion during the sweep, and is judged on the sweep compensated for it.
     const MotionState state{previous * result.T_target_source, se3_log(result.T_target_source) / dt_s};
@@ -97,11 +107,22 @@ void InitialPoseStage::learn(double score) {
   usual_score_ = usual_score_ > 0.0 ? usual_score_ + kLearningRate * (score - usual_score_) : score;
 }
 
-void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twist) { deskew(source, twist, target_); }
+void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twist) {
+  target_.reset();
+  const Vector6d moved = kHalfSweepS * (twist - moving_twist_);
+  if (moving_ && moved.head<3>().norm() < kSameTurnRad && moved.tail<3>().norm() < kSameShiftM) {
+    target_ = std::move(moving_);
+  } else {
+    deskew(source, twist, target_points_);
+  }
+  moving_.reset();
+}
 
 void InitialPoseStage::reset() {
   usual_score_ = 0.0;
-  target_.clear();
+  target_points_.clear();
+  target_.reset();
+  moving_.reset();
 }
 
 DistributionCloud InitialPoseStage::distribution(const std::vector<Eigen::Vector3f>& points) {

@@ -28,8 +28,9 @@ DistributionCloud make_distribution_cloud(const std::vector<Eigen::Vector3f>& po
 }
 
 CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& target, const SE3& T_target_source,
-                     double noise_m, const CoarseRegistrationConfig& config) {
+                     double noise_m, const CoarseRegistrationConfig& config, std::vector<std::uint32_t>& matches) {
   const auto& points = source.grid.points();
+  matches.resize(points.size(), kNoPoint);
   const Eigen::Matrix3d R = T_target_source.linear();
   const Eigen::Matrix3d noise = noise_m * noise_m * Eigen::Matrix3d::Identity();
   std::vector<CoarseSums> partial(chunk_count(points.size(), kSmallChunkSize));
@@ -73,12 +74,13 @@ CoarseResult coarse_registration(const DistributionCloud& source, const Distribu
                                  const CoarseRegistrationConfig& config) {
   CoarseResult result;
   result.T_target_source = initial;
+  std::vector<std::uint32_t> matches;
   for (result.iterations = 1; result.iterations <= config.max_iterations; ++result.iterations) {
     // The weights of far pairs vanish at once when the covariances are those of surfaces alone; a noise that shrinks
     // from iteration to iteration lets them pull first and then fall silent.
     const double share = std::min(1.0, 2.0 * (result.iterations - 1) / std::max(1.0, config.max_iterations - 1.0));
     const double noise = config.noise_first_m * std::pow(config.noise_last_m / config.noise_first_m, share);
-    const CoarseSums sums = linearise(source, target, result.T_target_source, noise, config);
+    const CoarseSums sums = linearise(source, target, result.T_target_source, noise, config, matches);
     result.pairs = sums.pairs;
     result.mean_weight = source.size() > 0 ? sums.weight / static_cast<double>(source.size()) : 0.0;
     if (sums.pairs < kLeastPairs) {

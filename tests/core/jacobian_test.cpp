@@ -85,7 +85,8 @@ TEST(Jacobian, CoarseStepIsTheGradientOfTheMahalanobisCost) {
   const DistributionCloud target = make_distribution_cloud(points, config);
   const DistributionCloud source = target;
   const SE3 T = pose(twist(2e-5, -3e-5, 4e-5, 1e-4, 1.2e-4, -8e-5));
-  const CoarseSums sums = linearise(source, target, T, 0.3, config);
+  std::vector<std::uint32_t> matches;
+  const CoarseSums sums = linearise(source, target, T, 0.3, config, matches);
   const auto half_cost = [&](const SE3& at) {
     double sum = 0;
     for (std::size_t i = 0; i < source.size(); ++i) {

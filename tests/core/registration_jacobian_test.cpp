@@ -182,7 +182,8 @@ TEST(CoarseJacobian, SumsAgreeWithNumericDifferences) {
   const auto source = make_distribution_cloud(test::seen_from(T_source, world), config);
   const SE3 T = T_source * se3_exp(twist(0.01, 0.02, -0.02, 0.05, -0.03, 0.04));
   const double noise_m = 0.3;
-  const CoarseSums sums = linearise(source, target, T, noise_m, config);
+  std::vector<std::uint32_t> matches;
+  const CoarseSums sums = linearise(source, target, T, noise_m, config, matches);
 
   CoarseSums numeric;
   for (std::size_t m = 0; m < source.size(); ++m) {

@@ -16,6 +16,8 @@ struct Neighbour {
   float distance2 = 0;
 };
 
+inline constexpr std::uint32_t kNoPoint = 0xFFFFFFFFU;
+
 /// Grid over a cloud of finite points. Reading is thread-safe. Ties are broken by the smaller index, so that results do
 /// not depend on the order in which cells are visited.
 class PointGrid {
@@ -27,8 +29,9 @@ class PointGrid {
 
   const std::vector<Eigen::Vector3f>& points() const { return points_; }
 
-  /// Nearest point within `max_distance_m`; false when there is none.
-  bool nearest(const Eigen::Vector3f& p, double max_distance_m, Neighbour& found) const;
+  /// Nearest point within `max_distance_m`; false when there is none. `guess`: a point that may well be it, which
+  /// shortens the search and does not change its result.
+  bool nearest(const Eigen::Vector3f& p, double max_distance_m, Neighbour& found, std::uint32_t guess = kNoPoint) const;
 
   /// The `k` nearest points within `max_distance_m`, nearest first; fewer when there are not as many.
   void nearest(const Eigen::Vector3f& p, std::size_t k, double max_distance_m, std::vector<Neighbour>& found) const;

@@ -2,6 +2,7 @@
 // (III-B).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -59,7 +60,8 @@ class InitialPoseStage {
 
   double usual_score() const { return usual_score_; }
 
-  /// Keeps the motion-compensated source of a sweep as target of the next coarse registration.
+  /// Keeps the motion-compensated source of a sweep as target of the next coarse registration: the distribution that
+  /// was made of it as a source where `twist` is about the velocity that it was compensated for then.
   void keep_target(const TimedCloud& source, const Vector6d& twist);
 
   void reset();
@@ -76,7 +78,11 @@ class InitialPoseStage {
   CoarseRegistrationConfig coarse_;
   VoxelSampler sampler_;
   std::vector<Eigen::Vector3f> compensated_;
-  std::vector<Eigen::Vector3f> target_;
+  std::vector<Eigen::Vector3f> target_points_;
+  // Of the last sweep, once it is needed; of this one, compensated for moving_twist_, when it was needed.
+  std::optional<DistributionCloud> target_;
+  std::optional<DistributionCloud> moving_;
+  Vector6d moving_twist_ = Vector6d::Zero();
   double usual_score_ = 0;
 };
 

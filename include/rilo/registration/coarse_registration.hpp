@@ -40,8 +40,9 @@ struct CoarseSums {
   double weight = 0;
   std::size_t pairs = 0;
 };
+/// `matches`: partner of each source point, kNoPoint where there is none; read as a guess, then written.
 CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& target, const SE3& T_target_source,
-                     double noise_m, const CoarseRegistrationConfig& config);
+                     double noise_m, const CoarseRegistrationConfig& config, std::vector<std::uint32_t>& matches);
 
 /// Algorithm 1 from `initial`.
 CoarseResult coarse_registration(const DistributionCloud& source, const DistributionCloud& target, const SE3& initial,

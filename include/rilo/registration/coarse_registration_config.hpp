@@ -8,7 +8,7 @@ struct CoarseRegistrationConfig {
   bool always =
       false;  ///< true: on every sweep as in the paper; false: only when the prediction explains the map badly
   double voxel_m = 1.0;             ///< voxel of its clouds
-  int max_points = 2000;            ///< at most that many points a cloud
+  int max_points = 1000;            ///< at most that many points a cloud
   double density_radius_m = 2.0;    ///< r: neighbours within it count (eq. 1)
   double density_percentile = 5.0;  ///< α: share of the least dense points dropped, percent (eq. Q_α)
   int neighbours = 10;              ///< k of the covariances (eq. 2)

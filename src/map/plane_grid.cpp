@@ -11,8 +11,9 @@ namespace rilo {
 
 namespace {
 constexpr std::size_t kFirstSlots = 1U << 12U;
-constexpr double kFaceShare = 0.2;  // a face is near within this share of the voxel
-constexpr std::size_t kBatch = 16;  // so many accesses to memory are under way together
+constexpr double kFaceShare = 0.2;        // a face is near within this share of the voxel
+constexpr double kLeastVariance = 1e-12;  // m²
+constexpr std::size_t kBatch = 16;        // so many accesses to memory are under way together
 }  // namespace
 
 PlaneGrid::PlaneGrid(double voxel_m, const PlaneCriteria& criteria)
@@ -118,6 +119,10 @@ void PlaneGrid::fit(std::uint32_t id) {
   const double middle = eigen.values[1];
   const double extent = criteria_.min_extent_m;
   planes_[id] = {mean.cast<float>(), eigen.vectors.col(0).cast<float>(), static_cast<float>(std::sqrt(smallest))};
+  // Errors of the slopes of a regression plane; three degrees of freedom went into it.
+  const double per_point = smallest / std::max(n - 3.0, 1.0);
+  tilts_[id] = {eigen.vectors.col(1).cast<float>(), static_cast<float>(per_point / std::max(middle, kLeastVariance)),
+                static_cast<float>(per_point / std::max(eigen.values[2], kLeastVariance))};
   const bool planar = middle > extent * extent && smallest < criteria_.max_planarity * middle;
   slots_[slot_of(voxel.key)].planar = planar ? 1U : 0U;
 }
@@ -150,6 +155,14 @@ bool PlaneGrid::locate(const Eigen::Vector3d& p, PlaneSpot& spot) const {
 MapPlane PlaneGrid::plane_at(const PlaneSpot& spot) const {
   const Plane& plane = planes_[spot.voxel];
   return {centre_of(spot.index) + plane.mean.cast<double>(), plane.normal.cast<double>(), plane.thickness};
+}
+
+Eigen::Matrix3d PlaneGrid::normal_covariance_at(const PlaneSpot& spot) const {
+  const Tilt& tilt = tilts_[spot.voxel];
+  const Eigen::Vector3d middle = tilt.middle.cast<double>();
+  const Eigen::Vector3d large = planes_[spot.voxel].normal.cast<double>().cross(middle);
+  return static_cast<double>(tilt.middle_variance) * middle * middle.transpose() +
+         static_cast<double>(tilt.large_variance) * large * large.transpose();
 }
 
 bool PlaneGrid::occupied(const Eigen::Vector3d& p) const {
@@ -185,6 +198,7 @@ std::uint32_t PlaneGrid::find_or_add(std::uint64_t key) {
   if (free_.empty()) {
     pool_.emplace_back();
     planes_.emplace_back();
+    tilts_.emplace_back();
   } else {
     id = free_.back();
     free_.pop_back();

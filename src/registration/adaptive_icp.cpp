@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kLeastCorrespondences = 10;
 // Below this many points a stride saves nothing and loses accuracy.
 constexpr std::size_t kLeastForStride = 4000;
+// Information on a direction counts beyond so many times what errors of the normals alone would show there.
+constexpr double kNoiseMargin = 1.5;
 // The strided cloud need not converge as far as the whole one: what is left is below the noise of its sample.
 constexpr double kCoarseTolerance = 10.0;
 
@@ -42,15 +44,15 @@ MotionState perturbed(const MotionState& state, const Vector12d& delta) {
 namespace {
 
 /// One Gauss-Newton step with damping; false when the system says nothing.
-bool step(const NormalEquations& sums, const MotionPrior& prior, const AdaptiveIcpConfig& config,
-          double information_scale, IcpResult& result, Vector12d& delta) {
+bool step(const NormalEquations& sums, const Matrix6d& normal_noise, const MotionPrior& prior,
+          const AdaptiveIcpConfig& config, double information_scale, IcpResult& result, Vector12d& delta) {
   const double variance = sums.squared_error / sums.weight;
   const double scale =
       information_scale * config.independent_share / std::max(variance, config.noise_m * config.noise_m);
   result.inliers = sums.count;
   result.residual_rms_m = std::sqrt(variance);
   result.lidar_information = scale * sums.pose_hessian();
-  result.degeneracy = analyse_degeneracy(result.lidar_information);
+  result.degeneracy = analyse_degeneracy(result.lidar_information, kNoiseMargin * scale * normal_noise);
   Matrix12d H = scale * sums.hessian();
   Vector12d b = -scale * sums.gradient();
   if (config.weak_direction > 0.0) {
@@ -83,7 +85,8 @@ IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const Moti
     ++result.iterations;
     const NormalEquations sums = matches.linearise(source, map, result.state, sigma_th_m, config, stride);
     Vector12d delta;
-    if (sums.count < kLeastCorrespondences || !step(sums, prior, config, static_cast<double>(stride), result, delta)) {
+    if (sums.count < kLeastCorrespondences ||
+        !step(sums, matches.normal_noise(), prior, config, static_cast<double>(stride), result, delta)) {
       result.inliers = sums.count;
       break;
     }

@@ -7,7 +7,7 @@
 
 namespace rilo {
 
-PoseDegeneracy analyse_degeneracy(const Matrix6d& H) {
+PoseDegeneracy analyse_degeneracy(const Matrix6d& H, const Matrix6d& noise) {
   PoseDegeneracy result;
   const double rotation = H.topLeftCorner<3, 3>().trace();
   const double translation = H.bottomRightCorner<3, 3>().trace();
@@ -17,7 +17,7 @@ PoseDegeneracy analyse_degeneracy(const Matrix6d& H) {
   result.lever_m = std::sqrt(rotation / translation);
   Vector6d scale = Vector6d::Ones();
   scale.head<3>().setConstant(1.0 / result.lever_m);
-  const Matrix6d scaled = scale.asDiagonal() * H * scale.asDiagonal();
+  const Matrix6d scaled = scale.asDiagonal() * (H - noise) * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scaled);
   const double largest = solver.eigenvalues()[5];
   if (largest > 0.0) {

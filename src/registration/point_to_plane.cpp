@@ -10,6 +10,8 @@ namespace rilo {
 
 namespace {
 
+constexpr std::size_t kNoiseStride = 8;  // a sample of the points tells the noise of the normals
+
 /// Tabulated motion over the span of the source's offsets.
 SweepMotion motion_of(const TimedCloud& source, const Vector6d& twist) {
   if (source.offsets_s.empty()) {
@@ -61,6 +63,7 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
     state_ = state;
   }
   std::vector<NormalEquations> partial(chunk_count(count));
+  std::vector<Matrix6d> noise(keep ? 0 : chunk_count(count), Matrix6d::Zero());
   for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
     NormalEquations sum;
     const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
@@ -94,10 +97,23 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
         const MapPlane plane = spot.grid->plane_at(spot);
         matches_[k] = {plane.normal, plane.normal.dot(plane.point), true};
         add(k, world);
+        const double e = plane.normal.dot(world - plane.point);
+        if (k % kNoiseStride == 0 && std::abs(e) <= gate) {
+          const double beta = config.adaptive ? sigma2 / (sigma2 + e * e) : 1.0;
+          Eigen::Matrix<double, 6, 3> by_normal;  // of the Jacobian
+          by_normal << hat(world - t), Eigen::Matrix3d::Identity();
+          noise[chunk] += beta * by_normal * spot.grid->normal_covariance_at(spot) * by_normal.transpose();
+        }
       });
     }
     partial[chunk] = sum;
   });
+  if (!keep) {
+    normal_noise_.setZero();
+    for (const Matrix6d& part : noise) {
+      normal_noise_ += static_cast<double>(kNoiseStride) * part;
+    }
+  }
   NormalEquations total;
   for (const NormalEquations& sum : partial) {
     total += sum;

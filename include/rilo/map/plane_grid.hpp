@@ -70,6 +70,9 @@ class PlaneGrid {
     __builtin_prefetch(&slots_[mix_key(voxel_key(voxel_of(p, inverse_))) & (slots_.size() - 1)]);
   }
 
+  /// Covariance of the normal there (rad²), from the scatter of the points about the plane.
+  Eigen::Matrix3d normal_covariance_at(const PlaneSpot& spot) const;
+
   /// How the centroid of the points there moves with the sensor's elevation angles, m/rad: mean over its points.
   Eigen::Vector3f elevation_lever_at(const PlaneSpot& spot) const {
     const Voxel& voxel = pool_[spot.voxel];
@@ -109,6 +112,12 @@ class PlaneGrid {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     float thickness = 0.0F;
   };
+  /// How well the normal is known.
+  struct Tilt {
+    Eigen::Vector3f middle = Eigen::Vector3f::Zero();  // unit, in the plane: where the points extend less
+    float middle_variance = 0.0F;                      // rad², of the normal towards it ...
+    float large_variance = 0.0F;                       // ... and towards the other direction in the plane
+  };
   struct Slot {
     std::uint64_t key = 0;
     std::uint32_t voxel = kNone;
@@ -130,6 +139,7 @@ class PlaneGrid {
   std::vector<Slot> slots_;
   std::vector<Voxel> pool_;
   std::vector<Plane> planes_;  // of the voxels of pool_
+  std::vector<Tilt> tilts_;    // of those planes
   std::vector<std::uint32_t> free_;
   std::vector<std::uint32_t> touched_;
   std::size_t used_ = 0;

@@ -49,6 +49,10 @@ class PlaneMatches {
   NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
                             const AdaptiveIcpConfig& config, std::size_t stride);
 
+  /// What errors of the normals alone add to the Hessian of the pose, on average: directions in which the Hessian is
+  /// not larger are not observed, whatever its eigenvalues say.
+  const Matrix6d& normal_noise() const { return normal_noise_; }
+
  private:
   struct Match {
     Eigen::Vector3d normal;
@@ -62,8 +66,9 @@ class PlaneMatches {
   std::vector<Match> matches_;  // of every stride-th point
   std::size_t stride_ = 0;      // 0: none are kept
   MotionState state_;           // at which they were looked up
-  double lever_m_ = 0;          // typical range of a point
-  double half_span_s_ = 0;      // largest offset of a point from the instant of the pose
+  Matrix6d normal_noise_ = Matrix6d::Zero();
+  double lever_m_ = 0;      // typical range of a point
+  double half_span_s_ = 0;  // largest offset of a point from the instant of the pose
 };
 
 /// Residuals and Jacobians of `source` against the planes of `map` at `state`, with the Cauchy weight of σ_th (eq.

@@ -16,7 +16,7 @@ struct AdaptiveIcpConfig {
   bool refine_motion = true;            ///< estimate the velocity during the sweep together with the pose
   double noise_m = 0.02;                ///< least standard deviation of a residual
   double independent_share = 0.01;      ///< share of the residuals that count as independent in the information
-  double weak_direction = 0.0005;       ///< relative eigenvalue at which half a direction is left to the prior; 0: off
+  double weak_direction = 0.001;        ///< relative eigenvalue at which half a direction is left to the prior; 0: off
 };
 
 }  // namespace rilo

@@ -16,8 +16,9 @@ struct PoseDegeneracy {
 };
 
 /// `H`: information (or Hessian) of [rotation; translation] about the sensor; the lever is chosen such that mean
-/// rotation and mean translation weigh the same.
-PoseDegeneracy analyse_degeneracy(const Matrix6d& H);
+/// rotation and mean translation weigh the same. `noise`: what of it comes from errors alone; it is
+/// taken off first.
+PoseDegeneracy analyse_degeneracy(const Matrix6d& H, const Matrix6d& noise = Matrix6d::Zero());
 
 /// Matrix W (6×6; Hessian Wᵀ H W, gradient Wᵀ Wᵀ b) that fades out the directions whose relative eigenvalue
 /// is small against `threshold`: eigenvalue λ keeps the share λ⁴ / (λ⁴ + threshold⁴). Identity when `threshold` is 0.

@@ -84,6 +84,18 @@ nlohmann::json counts(const RunRecord& run) {
           {"mean_iterations", iterations / std::max<double>(1.0, static_cast<double>(run.results.size()))}};
 }
 
+/// What was left undone for want of time.
+nlohmann::json budget(const RunRecord& run) {
+  const auto count = [&](bool SweepStats::*flag) {
+    return std::count_if(run.results.begin(), run.results.end(),
+                         [&](const SweepResult& result) { return result.stats.*flag; });
+  };
+  return {{"sweep_ms", run.config.budget.sweep_ms},
+          {"points_cut", count(&SweepStats::points_cut)},
+          {"coarse_cut", count(&SweepStats::coarse_cut)},
+          {"over_budget", count(&SweepStats::over_budget)}};
+}
+
 /// What the run found out about the sensor's angles; the correction given on the command line comes on top.
 nlohmann::json sensor_angles(const RunRecord& run) {
   nlohmann::json figures = {{"elevation_offset_deg", nullptr},
@@ -133,6 +145,9 @@ nlohmann::json run_metrics(const RunRecord& run) {
       {"warnings", run.source.warnings},
   };
   metrics.update(counts(run));
+  if (run.config.budget.sweep_ms > 0.0) {
+    metrics["budget"] = budget(run);
+  }
   metrics.update(sensor_angles(run));
   if (!run.error.empty()) {
     metrics["error"] = run.error;
@@ -166,6 +181,12 @@ std::string run_summary(const nlohmann::json& m) {
     if (count.get<std::size_t>() > 0) {
       text += fmt::format(" {} {}", name, count.get<std::size_t>());
     }
+  }
+  if (m.contains("budget")) {
+    const auto& b = m["budget"];
+    text += fmt::format("\nbudget {:.1f} ms  fewer points on {} sweeps, coarse stage cut on {}, over budget on {}",
+                        b["sweep_ms"].get<double>(), b["points_cut"].get<int>(), b["coarse_cut"].get<int>(),
+                        b["over_budget"].get<int>());
   }
   text += fmt::format("\nposes at        {} of the sweep; point times: {}; elevation correction {} deg\n",
                       m["pose_instant"].get<std::string>(), m["point_times"].get<std::string>(),

@@ -65,6 +65,8 @@ Row row_of(std::size_t index, const SweepResult& r) {
   row.add("sigma_th_m", s.sigma_th_m).add("gamma", s.gamma).add("deviation_m", s.deviation_m);
   row.add("elevation_offset_rad", s.elevation_offset_rad).add("elevation_applied_rad", s.elevation_applied_rad);
   row.add("beam_elevation_rms_rad", s.beam_elevation_rms_rad).add("beam_azimuth_rms_rad", s.beam_azimuth_rms_rad);
+  row.add("points_cut", s.points_cut ? 1 : 0).add("coarse_cut", s.coarse_cut ? 1 : 0);
+  row.add("over_budget", s.over_budget ? 1 : 0);
   row.add("speed_m_s", r.twist.tail<3>().norm()).add("turn_rate_rad_s", r.twist.head<3>().norm());
   add_uncertainty(row, r);
   row.add("preprocess_ms", t.preprocess_ms).add("initial_pose_ms", t.initial_pose_ms);

@@ -69,8 +69,17 @@ void Preprocessor::adapt_voxel() {
     return;
   }
   // Points lie on surfaces: their number goes with 1 / voxel².
-  const double ratio = static_cast<double>(prepared_.source.size()) / static_cast<double>(config_.source_points);
+  const double ratio = static_cast<double>(prepared_.source.size()) / source_points_;
   source_voxel_m_ = std::clamp(source_voxel_m_ * std::sqrt(ratio), config_.min_voxel_m, config_.max_voxel_m);
+}
+
+void Preprocessor::set_source_points(double points) {
+  // The voxel was chosen for the old number.
+  if (source_voxel_m_ > 0.0) {
+    source_voxel_m_ =
+        std::clamp(source_voxel_m_ * std::sqrt(source_points_ / points), config_.min_voxel_m, config_.max_voxel_m);
+  }
+  source_points_ = points;
 }
 
 void Preprocessor::sample_beams() {
@@ -99,6 +108,7 @@ void Preprocessor::reset() {
   sample_phase_ = 0;
   elevation_offset_rad_ = 0.0;
   span_known_ = false;
+  source_points_ = static_cast<double>(config_.source_points);
   source_voxel_m_ = 0.0;
   prepared_.scene_range_m = 0.0;
 }

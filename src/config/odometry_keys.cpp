@@ -138,6 +138,12 @@ void add_health(ConfigKeys& keys, HealthConfig& c) {
                "lost for so long, a new map starts at the predicted pose");
 }
 
+void add_budget(ConfigKeys& keys, TimeBudgetConfig& c) {
+  keys.section("budget", "Less work a sweep when time is short; results then depend on the machine");
+  keys.real("sweep_ms", c.sweep_ms, 0, 1e6, "ms",
+            "how long a sweep may take, reading excluded: beyond it fewer points, no coarse stage; 0: no limit");
+}
+
 }  // namespace
 
 ConfigKeys odometry_keys(OdometryConfig& c) {
@@ -153,6 +159,7 @@ ConfigKeys odometry_keys(OdometryConfig& c) {
   add_elevation(keys, c.elevation);
   add_beams(keys, c.beams);
   add_health(keys, c.health);
+  add_budget(keys, c.budget);
   return keys;
 }
 

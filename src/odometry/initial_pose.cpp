@@ -42,7 +42,8 @@ InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& 
 }
 
 InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous,
-                                     double dt_s, const LocalMap& map, bool in_doubt) {
+                                     double dt_s, const LocalMap& map, bool in_doubt,
+                                     const std::function<bool()>& time_left) {
   const ScoredPose prediction{predicted.T_odom_lidar, score(source, predicted, map)};
   InitialPose choice;
   choice.T_odom_lidar = prediction.T_odom_lidar;
@@ -55,6 +56,11 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
   if (!doubt && !coarse_.always) {
     return choice;
   }
+  if (time_left && !time_left()) {
+    choice.coarse_cut = true;
+    choice.reason = InitialPoseReason::kNoTime;
+    return choice;
+  }
   moving_ = distribution(compensated_);
   moving_twist_ = predicted.twist;
   if (!target_) {
@@ -62,7 +68,14 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
   }
   ScoredPose best{prediction.T_odom_lidar, -1.0};
   int iterations = 0;
+  int starts = 0;
+  bool cut = false;
   const auto try_from = [&](const SE3& start) {
+    cut = cut || (starts > 0 && time_left && !time_left());
+    if (cut) {
+      return;
+    }
+    ++starts;
     const CoarseResult result = coarse_registration(*moving_, *target_, previous.inverse() * start, coarse_);
     iterations += result.iterations;
     // Each candidate implies its own motion during the sweep, and is judged on the sweep compensated for it.
@@ -76,7 +89,7 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
   if (doubt && !explains(best.score)) {
     try_from(previous);  // no motion
   }
-  if (doubt && config_.restarts && !explains(best.score)) {
+  if (doubt && config_.restarts && !cut && !explains(best.score)) {
     deskew(source, predicted.twist, compensated_);
     for (const SE3& start : restarts(previous, map)) {
       try_from(start);
@@ -85,6 +98,8 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
   choice = select_initial_pose(prediction, best, config_);
   choice.coarse_ran = true;
   choice.coarse_iterations = iterations;
+  choice.coarse_starts = starts;
+  choice.coarse_cut = cut;
   return choice;
 }
 

@@ -1,6 +1,7 @@
 #include "rilo/odometry/odometry.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -15,6 +16,7 @@
 #include "rilo/odometry/initial_pose.hpp"
 #include "rilo/odometry/motion_prediction.hpp"
 #include "rilo/odometry/motion_prior.hpp"
+#include "rilo/odometry/time_budget.hpp"
 #include "rilo/registration/adaptive_icp.hpp"
 #include "rilo/registration/beam_calibration.hpp"
 #include "rilo/registration/elevation_offset.hpp"
@@ -45,8 +47,12 @@ class Odometry::Impl {
         threshold_(config.threshold),
         map_(config.map),
         elevation_(config.elevation),
-        beams_(config.beams) {
+        beams_(config.beams),
+        budget_(config.budget) {
     validate(config);
+    if (budget_.limited() && !clock_) {
+      throw std::invalid_argument("configuration: budget.sweep_ms is set, but the odometry was given no clock");
+    }
     preprocessor_.track_beams(config.beams.enabled);
   }
 
@@ -77,6 +83,7 @@ class Odometry::Impl {
   std::int64_t usable_stamp(std::int64_t stamp_ns) const;
   std::int64_t now() const { return clock_ ? clock_() : 0; }
   double ms_since(std::int64_t& mark) const;
+  double elapsed_ms() const { return static_cast<double>(now() - begin_ns_) * 1e-6; }
 
   OdometryConfig config_;
   Clock clock_;
@@ -88,6 +95,7 @@ class Odometry::Impl {
   LocalMap map_;
   ElevationOffsetEstimator elevation_;
   BeamCalibration beams_;
+  TimeBudget budget_;
   RigidLever elevation_lever_;  // how the last pose moves with the sensor's elevation angles
   Trajectory trajectory_;
   MotionState state_;
@@ -96,14 +104,22 @@ class Odometry::Impl {
   std::size_t sweeps_in_map_ = 0;                        // so many were ever inserted
   bool lost_ = false;                                    // the sweep before was
   int lost_on_this_map_ = 0;                             // so many sweeps in a row
+  std::int64_t begin_ns_ = 0;                            // of the sweep in work, on the clock
+  int coarse_starts_ = 0;                                // of the sweep in work
   TimedCloud first_cloud_;
   std::vector<Eigen::Vector3f> map_points_;
 };
 
 SweepResult Odometry::Impl::process(const Sweep& sweep) {
   SweepResult result;
+  coarse_starts_ = 0;
   std::int64_t mark = now();
   const std::int64_t begin = mark;
+  begin_ns_ = begin;
+  if (budget_.limited()) {
+    preprocessor_.set_source_points(budget_.point_share() * static_cast<double>(config_.preprocess.source_points));
+    result.stats.points_cut = budget_.point_share() < 1.0;
+  }
   const PreparedSweep& prepared = preprocessor_.prepare(sweep);
   result.stats.points_in = sweep.points.size();
   result.stats.points_valid = prepared.valid_points;
@@ -128,6 +144,11 @@ SweepResult Odometry::Impl::process(const Sweep& sweep) {
   trajectory_.push_back({result.stamp_ns, state_.T_odom_lidar});
   mark = begin;
   result.stats.times.total_ms = ms_since(mark);
+  if (budget_.limited()) {
+    const double coarse_ms = coarse_starts_ > 0 ? result.stats.times.initial_pose_ms : 0.0;
+    budget_.learn(result.stats.times.total_ms, coarse_ms, coarse_starts_);
+    result.stats.over_budget = result.stats.times.total_ms > config_.budget.sweep_ms;
+  }
   return result;
 }
 
@@ -159,8 +180,13 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
     return;
   }
   const bool in_doubt = sweeps_in_map_ < kStartSweeps || lost_;
-  const InitialPose init =
-      initial_pose_.choose(prepared.source, predicted, trajectory_.back().T_odom_lidar, dt_s, map_, in_doubt);
+  // Where nothing is known yet the coarse stage is worth a late sweep.
+  const bool hurried = budget_.limited() && sweeps_in_map_ >= kStartSweeps;
+  const auto time_left = [&] { return !hurried || budget_.coarse_fits(elapsed_ms()); };
+  const InitialPose init = initial_pose_.choose(prepared.source, predicted, trajectory_.back().T_odom_lidar, dt_s, map_,
+                                                in_doubt, time_left);
+  coarse_starts_ = init.coarse_starts;
+  result.stats.coarse_cut = init.coarse_cut;
   result.stats.initial_pose = init.source;
   result.stats.initial_pose_reason = init.reason;
   result.stats.coarse_ran = init.coarse_ran;
@@ -326,6 +352,7 @@ void Odometry::Impl::reset() {
   threshold_.reset();
   elevation_.reset();
   beams_.reset();
+  budget_.reset();
   elevation_lever_ = {};
   map_.clear();
   trajectory_.clear();

@@ -62,6 +62,8 @@ std::string_view to_string(InitialPoseReason reason) {
       return "better_map_score";
     case InitialPoseReason::kWorseMapScore:
       return "worse_map_score";
+    case InitialPoseReason::kNoTime:
+      return "no_time";
   }
   return "unknown";
 }

@@ -27,7 +27,8 @@ struct PreparedSweep {
 /// Range crop, NaN removal, time normalisation and downsampling. Keeps its buffers from sweep to sweep.
 class Preprocessor {
  public:
-  explicit Preprocessor(const PreprocessConfig& config) : config_(config) {}
+  explicit Preprocessor(const PreprocessConfig& config)
+      : config_(config), source_points_(static_cast<double>(config.source_points)) {}
 
   /// The result is valid until the next call.
   const PreparedSweep& prepare(const Sweep& sweep);
@@ -40,6 +41,9 @@ class Preprocessor {
 
   /// Whether to find out which beam each point came from: fills the sample, and corrects the angles of single beams.
   void track_beams(bool tracked) { beams_tracked_ = tracked; }
+
+  /// How many points the source cloud should have from the next sweep on, instead of config.source_points.
+  void set_source_points(double points);
 
   void reset();
 
@@ -60,6 +64,7 @@ class Preprocessor {
   std::vector<float> ranges_;
   VoxelMean map_mean_;
   VoxelMean source_mean_;
+  double source_points_;       // aimed for
   double source_voxel_m_ = 0;  // 0: no sweep has been seen
   double elevation_offset_rad_ = 0;
   bool beams_tracked_ = false;

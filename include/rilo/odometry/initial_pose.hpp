@@ -2,6 +2,7 @@
 // (III-B).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -23,7 +24,9 @@ struct InitialPose {
   InitialPoseSource source = InitialPoseSource::kPrediction;
   InitialPoseReason reason = InitialPoseReason::kCoarseNotNeeded;
   bool coarse_ran = false;
-  int coarse_iterations = 0;         ///< over all starts
+  int coarse_iterations = 0;  ///< over all starts
+  int coarse_starts = 0;
+  bool coarse_cut = false;           ///< for want of time it was not run, or not from all starts
   double prediction_score = 0;       ///< map score of T_pred, 0 … 1
   double pred_align_distance_m = 0;  ///< Δt_i
 };
@@ -49,8 +52,9 @@ class InitialPoseStage {
   /// @param previous T_{i−1}.
   /// @param dt_s time since `previous`.
   /// @param in_doubt the prediction must not be trusted whatever its score (start, after a loss).
+  /// @param time_left asked before each start of the coarse stage whether there is time for it; empty: always.
   InitialPose choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous, double dt_s,
-                     const LocalMap& map, bool in_doubt);
+                     const LocalMap& map, bool in_doubt, const std::function<bool()>& time_left = {});
 
   /// Map score of a registered sweep; the cloud becomes the next target.
   double score(const TimedCloud& source, const MotionState& state, const LocalMap& map);

@@ -19,10 +19,12 @@ namespace rilo {
 /// threads and gives the same bits for any number of them.
 class Odometry {
  public:
-  /// Monotonic time in ns for the stage times in the statistics. The core itself reads no clock.
+  /// Monotonic time in ns for the stage times in the statistics and for the time budget. The core itself reads no
+  /// clock.
   using Clock = std::function<std::int64_t()>;
 
-  /// @throws std::invalid_argument when a configuration value is out of range (it is named, with its range).
+  /// @throws std::invalid_argument when a configuration value is out of range (it is named, with its range), or when
+  /// there is a time budget and no clock.
   explicit Odometry(const OdometryConfig& config, Clock clock = {});
   ~Odometry();
   Odometry(Odometry&&) noexcept;

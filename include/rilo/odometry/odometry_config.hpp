@@ -8,6 +8,7 @@
 #include "rilo/odometry/initial_pose_config.hpp"
 #include "rilo/odometry/motion_prediction_config.hpp"
 #include "rilo/odometry/motion_prior_config.hpp"
+#include "rilo/odometry/time_budget_config.hpp"
 #include "rilo/registration/adaptive_icp_config.hpp"
 #include "rilo/registration/beam_calibration_config.hpp"
 #include "rilo/registration/coarse_registration_config.hpp"
@@ -29,6 +30,7 @@ struct OdometryConfig {
   ElevationOffsetConfig elevation;
   BeamCalibrationConfig beams;
   HealthConfig health;
+  TimeBudgetConfig budget;
 };
 
 /// @throws std::invalid_argument naming the first value that is out of range, and the range.

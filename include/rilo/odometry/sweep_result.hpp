@@ -44,6 +44,7 @@ enum class InitialPoseReason : std::uint8_t {
   kBeyondTau,        ///< farther than tau: prediction taken (the paper's rule)
   kBetterMapScore,   ///< the coarse result explains the local map better
   kWorseMapScore,    ///< the prediction explains the local map better
+  kNoTime,           ///< the coarse stage would have been run, but would not have ended within the time budget
 };
 std::string_view to_string(InitialPoseReason reason);
 
@@ -84,6 +85,9 @@ struct SweepStats {
   double elevation_applied_rad = 0;              ///< angle added to those of the next sweep
   double beam_elevation_rms_rad = 0;             ///< what is added to single beams of the next sweep, over the beams
   double beam_azimuth_rms_rad = 0;
+  bool points_cut = false;   ///< fewer points than configured, for want of time
+  bool coarse_cut = false;   ///< the coarse stage was left out or broken off, for want of time
+  bool over_budget = false;  ///< the sweep took longer than its budget all the same
   StageTimes times;
 };
 

@@ -9,6 +9,7 @@ namespace rilo {
 
 namespace {
 constexpr double kLearningRate = 0.2;
+constexpr double kDoubtfulLearningRate = 0.02;
 // The search looks at fewer points and more tolerantly than the score: it only has to find the right valley.
 constexpr std::size_t kSearchPoints = 300;
 constexpr double kSearchSigmaM = 0.3;
@@ -119,7 +120,8 @@ double InitialPoseStage::score(const TimedCloud& source, const MotionState& stat
 }
 
 void InitialPoseStage::learn(double score) {
-  usual_score_ = usual_score_ > 0.0 ? usual_score_ + kLearningRate * (score - usual_score_) : score;
+  const double rate = explains(score) ? kLearningRate : kDoubtfulLearningRate;
+  usual_score_ = usual_score_ > 0.0 ? usual_score_ + rate * (score - usual_score_) : score;
 }
 
 void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twist) {
@@ -135,6 +137,10 @@ void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twi
 
 void InitialPoseStage::reset() {
   usual_score_ = 0.0;
+  forget_target();
+}
+
+void InitialPoseStage::forget_target() {
   target_points_.clear();
   target_.reset();
   moving_.reset();

@@ -26,6 +26,7 @@ namespace rilo {
 namespace {
 constexpr std::int64_t kDefaultPeriodNs = 100'000'000;  // until two stamps are known
 constexpr std::size_t kStartSweeps = 3;                 // the prediction means nothing before
+constexpr std::size_t kYoungSweeps = 5;
 constexpr int kFirstSweepRounds = 2;
 constexpr std::size_t kElevationStride = 4;
 
@@ -104,6 +105,7 @@ class Odometry::Impl {
   std::size_t sweeps_in_map_ = 0;                        // so many were ever inserted
   bool lost_ = false;                                    // the sweep before was
   int lost_on_this_map_ = 0;                             // so many sweeps in a row
+  std::size_t restarted_at_ = 0;                         // sweeps_in_map_ when the map was last begun
   std::int64_t begin_ns_ = 0;                            // of the sweep in work, on the clock
   int coarse_starts_ = 0;                                // of the sweep in work
   TimedCloud first_cloud_;
@@ -213,7 +215,9 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
   // Health, adaptive threshold (III-C) and local map.
   const double score = initial_pose_.score(prepared.source, icp.state, map_);
   result.stats.map_score = score;
-  result.status = judge(icp, {prepared.source.size(), score, initial_pose_.usual_score(), lost_}, config_.health);
+  const bool young = sweeps_in_map_ < restarted_at_ + kYoungSweeps;
+  const Evidence evidence{prepared.source.size(), score, initial_pose_.usual_score(), lost_, young};
+  result.status = judge(icp, evidence, config_.health);
   if (result.status == OdometryStatus::kLost) {
     lose(prepared, predicted, result);
   } else {
@@ -319,8 +323,8 @@ void Odometry::Impl::lose(const PreparedSweep& prepared, const MotionState& pred
     // The old map does not fit any more, and waiting longer will not help: go on from here.
     lost_on_this_map_ = 0;
     map_.clear();
-    initial_pose_.reset();
-    ++sweeps_in_map_;
+    initial_pose_.forget_target();
+    restarted_at_ = ++sweeps_in_map_;
     insert(prepared.map_cloud);
     initial_pose_.keep_target(prepared.source, state_.twist);
   }
@@ -360,6 +364,7 @@ void Odometry::Impl::reset() {
   velocity_covariance_ = unknown_velocity_covariance();
   last_step_.setZero();
   sweeps_in_map_ = 0;
+  restarted_at_ = 0;
   lost_ = false;
   lost_on_this_map_ = 0;
   first_cloud_ = TimedCloud{};

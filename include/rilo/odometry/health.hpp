@@ -13,6 +13,7 @@ struct Evidence {
   double score = 0;        ///< map score at the registered pose
   double usual_score = 0;  ///< of the sweeps before; 0: unknown
   bool was_lost = false;   ///< the sweep before was lost
+  bool young_map = false;  ///< a few sweeps only have gone into the map: it explains less than usual
 };
 
 /// Status of a registered sweep.

@@ -59,7 +59,8 @@ class InitialPoseStage {
   /// Map score of a registered sweep; the cloud becomes the next target.
   double score(const TimedCloud& source, const MotionState& state, const LocalMap& map);
 
-  /// Lets a sweep's score, known to be good, into the usual score.
+  /// Lets a sweep's score into the usual score: slowly where it raises the alarm. A pose that slides away bit by bit
+  /// must not take the measure along, and a place that shows less must become usual in time.
   void learn(double score);
 
   double usual_score() const { return usual_score_; }
@@ -69,6 +70,9 @@ class InitialPoseStage {
   void keep_target(const TimedCloud& source, const Vector6d& twist);
 
   void reset();
+
+  /// Forgets the last sweep's cloud, not the usual score: on a new map.
+  void forget_target();
 
  private:
   DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points);

@@ -31,9 +31,12 @@ Matrix6d soft_selection(const PoseDegeneracy& degeneracy, double threshold) {
   if (threshold <= 0.0) {
     return Matrix6d::Identity();
   }
-  const Eigen::Array<double, 6, 1> power = degeneracy.relative_eigenvalues.array().pow(4);
+  // Nothing at all below half of the threshold: what is known of the motion fades from sweep to sweep in a direction
+  // that is not seen, and then the least share of noise would rule it.
+  const double half = 0.5 * threshold;
+  const Eigen::Array<double, 6, 1> power = (degeneracy.relative_eigenvalues.array() - half).max(0.0).pow(4);
   // W is applied from both sides, so that it carries the square root of the share.
-  const Vector6d share = (power / (power + std::pow(threshold, 4))).sqrt();
+  const Vector6d share = (power / (power + std::pow(half, 4))).sqrt();
   Vector6d scale = Vector6d::Ones();
   scale.head<3>().setConstant(degeneracy.lever_m);
   const Matrix6d& V = degeneracy.directions;

@@ -11,8 +11,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 build=(build-essential cmake make libeigen3-dev libtbb-dev
        libcli11-dev libyaml-cpp-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libnanoflann-dev
-       libpng-dev)
-tests=(git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-numpy)
+       libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev)
+# librosbag-storage brings much of ROS along: without it everything but ROS 1 bags is read.
+tests=(librosbag-storage-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-numpy)
 lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
 

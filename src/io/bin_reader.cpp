@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <system_error>
 
 #include "io/bin_fields.hpp"
 #include "io/cloud_columns.hpp"
@@ -43,6 +44,25 @@ std::vector<Field> parse_bin_fields(const std::string& text) {
     if (std::none_of(fields.begin(), fields.end(), same)) refuse(text, std::string("no column ") + axis);
   }
   return fields;
+}
+
+std::string guess_bin_fields(const std::vector<std::filesystem::path>& files) {
+  constexpr std::size_t kLookedAt = 50;
+  const std::size_t step = std::max<std::size_t>(1, files.size() / kLookedAt);
+  bool four = true;
+  bool five = true;
+  bool seen = false;
+  bool named = !files.empty();
+  for (std::size_t i = 0; i < files.size(); i += step) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(files[i], error);
+    if (error || size == 0) continue;
+    seen = true;
+    five = five && size % 20 == 0;
+    four = four && size % 16 == 0;
+    named = named && lower_case(files[i].filename().string()).ends_with(".pcd.bin");
+  }
+  return seen && five && (!four || named) ? "x,y,z,intensity,ring" : "x,y,z,intensity";
 }
 
 namespace {

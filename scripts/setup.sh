@@ -5,6 +5,7 @@
 #   scripts/setup.sh --minimal  to build the library and the command only
 #   scripts/setup.sh --lint     also clang-format, clang-tidy, gcovr, shellcheck
 #   scripts/setup.sh --docs     also Doxygen
+#   scripts/setup.sh --bench    also Valgrind, which counts instructions
 #   scripts/setup.sh --print    print the package names instead of installing them
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -16,19 +17,22 @@ build=(build-essential cmake make libeigen3-dev libtbb-dev
 tests=(librosbag-storage-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-numpy)
 lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
+bench=(valgrind)
 
 minimal=false
 with_lint=false
 with_docs=false
+with_bench=false
 print_only=false
 for argument in "$@"; do
   case "$argument" in
     --minimal) minimal=true ;;
     --lint) with_lint=true ;;
     --docs) with_docs=true ;;
+    --bench) with_bench=true ;;
     --print) print_only=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/setup.sh | grep -v '^shellcheck'; exit 0 ;;
-    *) die "unknown option '$argument'; known: --minimal --lint --docs --print" ;;
+    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --print" ;;
   esac
 done
 
@@ -36,6 +40,7 @@ wanted=("${build[@]}")
 $minimal || wanted+=("${tests[@]}")
 ! $with_lint || wanted+=("${lint[@]}")
 ! $with_docs || wanted+=("${docs[@]}")
+! $with_bench || wanted+=("${bench[@]}")
 if $print_only; then
   printf '%s\n' "${wanted[@]}"
   exit 0

@@ -31,6 +31,7 @@ class CommandError : public std::runtime_error {
 // Each subcommand adds itself to `app`; when it is chosen, its callback runs it and sets `exit_code`. Errors are
 // exceptions. `command_line` goes into the results.
 void add_run_command(CLI::App& app, const std::string& command_line, int& exit_code);
+void add_bench_command(CLI::App& app, const std::string& command_line, int& exit_code);
 void add_eval_command(CLI::App& app, int& exit_code);
 void add_quality_command(CLI::App& app, int& exit_code);
 void add_simulate_command(CLI::App& app, int& exit_code);

@@ -1,13 +1,10 @@
 // The rilo command: parses, dispatches, and turns every error into one line and an exit code.
-#include <exception>
 #include <iostream>
-#include <new>
 
 #include <CLI/CLI.hpp>
 
 #include "command.hpp"
-#include "rilo/config/config_file.hpp"
-#include "rilo/io/io_error.hpp"
+#include "failure.hpp"
 #include "text.hpp"
 #include "version.hpp"
 
@@ -18,6 +15,7 @@ constexpr const char* kFooter = R"(Examples:
   rilo run drive --out results --map results/map.ply        odometry, map, figures, report.html
   rilo eval drive results/poses_lidar.txt                   errors against ground truth
   rilo quality drive results/poses_lidar.txt                how crisp the map is; needs no ground truth
+  rilo bench experiments/ablation.yaml --data drive         several configurations on several drives
   rilo config --dump > my.yaml                              every key with its unit and meaning
 
 Exit codes: 0 success, 1 unexpected error, 2 wrong usage or configuration, 3 data missing or malformed,
@@ -39,6 +37,7 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   cli::add_run_command(app, cli::command_line(argc, argv), exit_code);
   cli::add_eval_command(app, exit_code);
+  cli::add_bench_command(app, cli::command_line(argc, argv), exit_code);
   cli::add_quality_command(app, exit_code);
   cli::add_simulate_command(app, exit_code);
   cli::add_config_command(app, exit_code);
@@ -52,17 +51,8 @@ int main(int argc, char** argv) {
     const auto chosen = app.get_subcommands();
     const std::string help = chosen.empty() ? "rilo --help" : "rilo " + chosen.front()->get_name() + " --help";
     return fail(cli::kUsage, std::string(error.what()) + ". See: " + help);
-  } catch (const cli::CommandError& error) {
-    return fail(error.code(), error.what());
-  } catch (const ConfigError& error) {
-    return fail(cli::kUsage, error.what());
-  } catch (const IoError& error) {
-    return fail(cli::kBadData, error.what());
-  } catch (const std::invalid_argument& error) {
-    return fail(cli::kUsage, error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(cli::kUnexpected, "out of memory");
-  } catch (const std::exception& error) {
-    return fail(cli::kUnexpected, error.what());
+  } catch (...) {
+    const cli::Failure failure = cli::current_failure();
+    return fail(failure.code, failure.message);
   }
 }

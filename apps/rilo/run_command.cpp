@@ -1,8 +1,6 @@
 // rilo run: odometry over recorded sweeps.
-#include <algorithm>
 #include <iostream>
 #include <memory>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -64,8 +62,6 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   run.command_line = command_line;
   run.data = flags.data;
   run.config = configuration(flags);
-  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
-  run.threads = run.config.threads > 0 ? run.config.threads : static_cast<int>(processors);
   const auto source = open_scan_source(flags.data, flags.source.options);
   prepare_outputs(flags);
   const InterruptGuard guard;
@@ -73,9 +69,7 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   run_sweeps(flags, *source, partial, run);
   if (run.results.empty() && run.signal == 0) {
     partial.remove();
-    if (!run.error.empty()) throw CommandError(run.error_code, run.error);
-    throw CommandError(kBadData, fmt::format("{}: no sweep to run ({} could not be read, --start is {})", flags.data,
-                                             run.source.bad_sweeps, flags.start));
+    throw CommandError(run.error_code, run.error);
   }
   if (!flags.no_truth) {
     const std::size_t told = run.source.warnings.size();

@@ -85,16 +85,23 @@ nlohmann::json counts(const RunRecord& run) {
           {"mean_iterations", iterations / std::max<double>(1.0, static_cast<double>(run.results.size()))}};
 }
 
-/// What the run found out about the sensor's elevation angles; the correction given on the command line comes on top.
-nlohmann::json elevation(const RunRecord& run) {
+/// What the run found out about the sensor's angles; the correction given on the command line comes on top.
+nlohmann::json sensor_angles(const RunRecord& run) {
   nlohmann::json figures = {{"elevation_offset_deg", nullptr},
                             {"elevation_offset_sigma_deg", nullptr},
-                            {"elevation_offset_applied_deg", 0.0}};
-  if (run.results.empty() || !run.config.elevation.enabled) {
+                            {"elevation_offset_applied_deg", 0.0},
+                            {"beam_elevation_rms_deg", 0.0},
+                            {"beam_azimuth_rms_deg", 0.0}};
+  if (run.results.empty()) {
     return figures;
   }
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   const SweepStats& last = run.results.back().stats;
+  figures["beam_elevation_rms_deg"] = kDegPerRad * last.beam_elevation_rms_rad;
+  figures["beam_azimuth_rms_deg"] = kDegPerRad * last.beam_azimuth_rms_rad;
+  if (!run.config.elevation.enabled) {
+    return figures;
+  }
   if (std::isfinite(last.elevation_offset_sigma_rad)) {
     figures["elevation_offset_deg"] = kDegPerRad * last.elevation_offset_rad;
     figures["elevation_offset_sigma_deg"] = kDegPerRad * last.elevation_offset_sigma_rad;
@@ -130,7 +137,7 @@ nlohmann::json run_metrics(const RunRecord& run) {
       {"warnings", run.source.warnings},
   };
   metrics.update(counts(run));
-  metrics.update(elevation(run));
+  metrics.update(sensor_angles(run));
   if (!run.error.empty()) {
     metrics["error"] = run.error;
   }
@@ -171,6 +178,10 @@ std::string run_summary(const nlohmann::json& m) {
     text += fmt::format("elevation error {:+.3f} ± {:.3f} deg found; {:+.3f} corrected\n",
                         m["elevation_offset_deg"].get<double>(), m["elevation_offset_sigma_deg"].get<double>(),
                         m["elevation_offset_applied_deg"].get<double>());
+  }
+  if (m["beam_elevation_rms_deg"].get<double>() > 0.0 || m["beam_azimuth_rms_deg"].get<double>() > 0.0) {
+    text += fmt::format("single beams    corrected by {:.3f} deg in elevation, {:.3f} in azimuth (rms)\n",
+                        m["beam_elevation_rms_deg"].get<double>(), m["beam_azimuth_rms_deg"].get<double>());
   }
   if (m.contains("evaluation")) {
     const auto& e = m["evaluation"];

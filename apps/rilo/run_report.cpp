@@ -55,6 +55,9 @@ void add_facts(const RunRecord& run, const nlohmann::json& metrics, RunReport& r
                   {"Motion compensation", compensation_of(run)},
                   {"Elevation correction", fmt::format("{}°", run.source.elevation_correction_deg)},
                   {"Elevation error found", elevation_of(metrics)},
+                  {"Single beams corrected by", fmt::format("{:.3f}° in elevation, {:.3f}° in azimuth (rms)",
+                                                            metrics["beam_elevation_rms_deg"].get<double>(),
+                                                            metrics["beam_azimuth_rms_deg"].get<double>())},
                   {"Time measured", metrics["ms_note"].get<std::string>()}};
   if (run.truth) {
     report.facts.emplace_back("Ground truth", valid_utf8(run.truth->file + " (" + run.truth->instant + ")"));

@@ -8,6 +8,9 @@
 #include <optional>
 #include <string>
 #include <sys/resource.h>
+#include <thread>
+
+#include <fmt/format.h>
 
 #include "interrupt.hpp"
 #include "progress.hpp"
@@ -68,10 +71,13 @@ class SweepLoop {
         partial_(partial),
         run_(run),
         odometry_(run.config, steady_ns),
+        map_wanted_(!flags.map.empty() || (!flags.out.empty() && !flags.no_report)),
         map_(flags.map.empty() ? kPictureVoxelM : kMapVoxelM),
         progress_("rilo", sweeps_to_do(flags, source), flags.quiet) {}
 
   void run() {
+    const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+    run_.threads = run_.config.threads > 0 ? run_.config.threads : static_cast<int>(processors);
     const std::int64_t begin = steady_ns();
     try {
       source_.skip(flags_.start);
@@ -91,7 +97,11 @@ class SweepLoop {
     run_.wall_s = static_cast<double>(steady_ns() - begin) * 1e-9;
     run_.peak_rss_mb = peak_rss_mb();
     run_.source = source_.info();
-    run_.map = map_.points().empty() ? odometry_.local_map() : map_.points();
+    if (run_.results.empty() && run_.signal == 0 && run_.error.empty()) {
+      fail(kBadData, fmt::format("{}: no sweep to run ({} could not be read, --start is {})", run_.data.string(),
+                                 run_.source.bad_sweeps, flags_.start));
+    }
+    if (map_wanted_) run_.map = map_.points().empty() ? odometry_.local_map() : map_.points();
   }
 
  private:
@@ -105,7 +115,7 @@ class SweepLoop {
     run_.results.push_back(result);
     run_.indices.push_back(source_.current_index());
     partial_.add(result.T_odom_lidar);
-    if (belongs_in_map(result, *sweep)) map_.add(odometry_.last_map_points(), result.T_odom_lidar);
+    if (map_wanted_ && belongs_in_map(result, *sweep)) map_.add(odometry_.last_map_points(), result.T_odom_lidar);
     const bool usual = result.status == OdometryStatus::kOk;
     progress_.update(run_.results.size(), usual ? "" : std::string(to_string(result.status)));
     return true;
@@ -132,6 +142,7 @@ class SweepLoop {
   PartialPoses& partial_;
   RunRecord& run_;
   Odometry odometry_;
+  bool map_wanted_;  // for the file or the report
   ThinnedMap map_;
   Progress progress_;
   std::vector<std::string> shown_;

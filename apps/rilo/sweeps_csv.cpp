@@ -64,6 +64,7 @@ Row row_of(std::size_t index, const SweepResult& r) {
   row.add("inliers", s.inliers).add("inlier_ratio", s.inlier_ratio).add("residual_rms_m", s.residual_rms_m);
   row.add("sigma_th_m", s.sigma_th_m).add("gamma", s.gamma).add("deviation_m", s.deviation_m);
   row.add("elevation_offset_rad", s.elevation_offset_rad).add("elevation_applied_rad", s.elevation_applied_rad);
+  row.add("beam_elevation_rms_rad", s.beam_elevation_rms_rad).add("beam_azimuth_rms_rad", s.beam_azimuth_rms_rad);
   row.add("speed_m_s", r.twist.tail<3>().norm()).add("turn_rate_rad_s", r.twist.head<3>().norm());
   add_uncertainty(row, r);
   row.add("preprocess_ms", t.preprocess_ms).add("initial_pose_ms", t.initial_pose_ms);

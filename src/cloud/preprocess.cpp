@@ -10,6 +10,8 @@ namespace rilo {
 namespace {
 
 constexpr int kFirstRounds = 3;
+constexpr std::size_t kBeamSample = 4000;  // points
+constexpr std::size_t kPhaseStep = 7;
 constexpr double kSceneSmoothing = 0.1;  // about a second at 10 Hz
 
 }  // namespace
@@ -18,6 +20,7 @@ const PreparedSweep& Preprocessor::prepare(const Sweep& sweep) {
   crop(sweep);
   normalise_times(sweep);
   prepared_.valid_points = cropped_.size();
+  sample_beams();
   // A sweep without points says nothing about the scale: the next one is still the first.
   const bool scale_unknown = source_voxel_m_ <= 0.0;
   if (scale_unknown) {
@@ -68,7 +71,30 @@ void Preprocessor::adapt_voxel() {
   source_voxel_m_ = std::clamp(source_voxel_m_ * std::sqrt(ratio), config_.min_voxel_m, config_.max_voxel_m);
 }
 
+void Preprocessor::sample_beams() {
+  TimedCloud& cloud = prepared_.beam_sample.cloud;
+  cloud.points.clear();
+  cloud.offsets_s.clear();
+  prepared_.beam_sample.beams.clear();
+  if (!beams_tracked_) {
+    return;
+  }
+  // Every so many points, from another one on in each sweep. Odd: where the points lie firing by firing, an even step
+  // would meet the same beams again and again.
+  const std::size_t stride = (cropped_.size() / kBeamSample) | 1U;
+  sample_phase_ = (sample_phase_ + kPhaseStep) % stride;
+  for (std::size_t i = sample_phase_; i < cropped_.size(); i += stride) {
+    cloud.points.push_back(cropped_.points[i]);
+    if (cropped_.timed()) {
+      cloud.offsets_s.push_back(cropped_.offsets_s[i]);
+    }
+    prepared_.beam_sample.beams.push_back(cropped_beams_[i]);
+  }
+}
+
 void Preprocessor::reset() {
+  beam_angles_ = BeamAngles{};
+  sample_phase_ = 0;
   elevation_offset_rad_ = 0.0;
   span_known_ = false;
   source_voxel_m_ = 0.0;
@@ -83,13 +109,21 @@ void Preprocessor::crop(const Sweep& sweep) {
   const ElevationTurn turn(elevation_offset_rad_);
   cropped_.points.clear();
   cropped_.offsets_s.clear();
+  cropped_beams_.clear();
+  if (beams_tracked_) {
+    beam_index_.assign(sweep, beams_);
+  }
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     const float range2 = sweep.points[i].squaredNorm();
     // A NaN or infinite coordinate makes the comparison false.
     if (!(range2 >= min2 && range2 <= max2) || (timed && !std::isfinite(sweep.times_s[i]))) {
       continue;
     }
-    cropped_.points.push_back(turned ? turn(sweep.points[i]) : sweep.points[i]);
+    const Eigen::Vector3f p = turned ? turn(sweep.points[i]) : sweep.points[i];
+    cropped_.points.push_back(beams_tracked_ ? beam_angles_.corrected(p, beams_[i]) : p);
+    if (beams_tracked_) {
+      cropped_beams_.push_back(beams_[i]);
+    }
     if (timed) {
       cropped_.offsets_s.push_back(sweep.times_s[i]);
     }

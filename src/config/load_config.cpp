@@ -1,37 +1,20 @@
-#include <fstream>
-#include <iterator>
 #include <set>
-#include <sstream>
 #include <stdexcept>
-#include <system_error>
 
-#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include "config/yaml_document.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/config/odometry_keys.hpp"
 
 namespace rilo {
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{1} << 20;
-constexpr std::size_t kLongestQuote = 60;
+using detail::kind_of;
+using detail::position_of;
+using detail::quoted;
 
-std::string position_of(const YAML::Mark& mark) {
-  if (mark.is_null()) return "";
-  return "line " + std::to_string(mark.line + 1) + ", column " + std::to_string(mark.column + 1);
-}
-
-std::string quoted(const std::string& text) {
-  return "\"" + (text.size() <= kLongestQuote ? text : text.substr(0, kLongestQuote) + "…") + "\"";
-}
-
-std::string kind_of(const YAML::Node& node) {
-  if (node.IsMap()) return "a map of keys";
-  if (node.IsSequence()) return "a list";
-  if (!node.IsScalar()) return "no value";
-  return quoted(node.Scalar());
-}
+constexpr const char* kHint = "`rilo config --dump` shows how the file looks";
 
 // Where a value stands, for messages.
 struct Place {
@@ -103,80 +86,27 @@ class Loader {
   std::set<std::string> seen_;
 };
 
-std::string read_text(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    const bool exists = std::filesystem::exists(file, error);
-    throw ConfigError({file, "", exists ? "this is no regular file" : "there is nothing of this name",
-                       "a configuration file (YAML)", "`rilo config --dump > FILE` makes one"});
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  text.resize(kLargestFile + 1);
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad() || (stream.fail() && !stream.eof())) {
-    throw ConfigError({file, "", "it cannot be read", "a readable file", "Check its permissions"});
-  }
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > kLargestFile) {
-    throw ConfigError({file, "", "more than 1 MiB", "a configuration file (YAML)", "Check the path"});
-  }
-  return text;
-}
-
-/// Takes no notice of what a parser finds.
-class IgnoreEvents : public YAML::EventHandler {
- public:
-  using Mark = YAML::Mark;
-  using Anchor = YAML::anchor_t;
-  using Style = YAML::EmitterStyle::value;
-  void OnDocumentStart(const Mark& /*mark*/) override {}
-  void OnDocumentEnd() override {}
-  void OnNull(const Mark& /*mark*/, Anchor /*anchor*/) override {}
-  void OnAlias(const Mark& /*mark*/, Anchor /*anchor*/) override {}
-  void OnScalar(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
-                const std::string& /*value*/) override {}
-  void OnSequenceStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/, Style /*style*/) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/, Style /*style*/) override {}
-  void OnMapEnd() override {}
-};
-
-/// YAML::LoadAll would do, but at a stray comma it adds documents until memory runs out (yaml-cpp 0.7).
-bool has_second_document(std::string_view yaml) {
-  std::istringstream stream{std::string(yaml)};
-  YAML::Parser parser(stream);
-  IgnoreEvents ignore;
-  return parser.HandleNextDocument(ignore) && parser.HandleNextDocument(ignore);
-}
-
 }  // namespace
 
 OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base) {
   OdometryConfig config = base;
   const ConfigKeys keys = odometry_keys(config);
-  try {
-    if (has_second_document(yaml)) {
-      throw ConfigError({name, "", "a second document", "one document", ""});
-    }
-    Loader(keys, name).load(YAML::Load(std::string(yaml)));
-  } catch (const YAML::Exception& error) {
-    throw ConfigError({name, position_of(error.mark), "this is no YAML (" + error.msg + ")", "\"key: value\" lines",
-                       "`rilo config --dump` shows how the file looks"});
-  }
+  Loader(keys, name).load(detail::parse_yaml(yaml, name, kHint));
   check_together(config, name);
   return config;
 }
 
 OdometryConfig load_config(const std::filesystem::path& file, const OdometryConfig& base) {
-  return parse_config(read_text(file), file.string(), base);
+  const std::string text =
+      detail::read_yaml_file(file, "a configuration file (YAML)", "`rilo config --dump > FILE` makes one");
+  return parse_config(text, file.string(), base);
 }
 
 OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std::string>& overrides) {
   OdometryConfig config = base;
   const ConfigKeys keys = odometry_keys(config);
   for (const std::string& text : overrides) {
-    const Place place{"--set " + text.substr(0, kLongestQuote), ""};
+    const Place place{"--set " + text.substr(0, detail::kLongestQuote), ""};
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
       throw ConfigError({place.file, "", "there is no \"=\"", "key=value", "Example: --set icp.max_iterations=20"});

@@ -119,6 +119,12 @@ void add_elevation(ConfigKeys& keys, ElevationOffsetConfig& c) {
   keys.real("step_deg", c.step_deg, 0.0001, 1, "deg", "the correction moves by at most this from sweep to sweep");
 }
 
+void add_beams(ConfigKeys& keys, BeamCalibrationConfig& c) {
+  keys.section("beams", "Errors of the angles of single beams against their neighbours, found from the sweeps alone");
+  keys.boolean("enabled", c.enabled, "find and correct them");
+  keys.real("gain", c.gain, 0.0001, 1, "", "share of what a sweep shows that is corrected at once");
+}
+
 void add_health(ConfigKeys& keys, HealthConfig& c) {
   keys.section("health", "When a pose is called degenerate, poorly supported or lost");
   keys.real("lost_share", c.lost_share, 0, 1, "", "lost when the map score falls below this share of the usual one");
@@ -143,6 +149,7 @@ ConfigKeys odometry_keys(OdometryConfig& c) {
   add_icp(keys, c.icp);
   add_map(keys, c.map);
   add_elevation(keys, c.elevation);
+  add_beams(keys, c.beams);
   add_health(keys, c.health);
   return keys;
 }

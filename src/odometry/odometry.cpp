@@ -16,6 +16,7 @@
 #include "rilo/odometry/motion_prediction.hpp"
 #include "rilo/odometry/motion_prior.hpp"
 #include "rilo/registration/adaptive_icp.hpp"
+#include "rilo/registration/beam_calibration.hpp"
 #include "rilo/registration/elevation_offset.hpp"
 
 namespace rilo {
@@ -43,8 +44,10 @@ class Odometry::Impl {
         initial_pose_(config.initial_pose, config.coarse),
         threshold_(config.threshold),
         map_(config.map),
-        elevation_(config.elevation) {
+        elevation_(config.elevation),
+        beams_(config.beams) {
     validate(config);
+    preprocessor_.track_beams(config.beams.enabled);
   }
 
   SweepResult register_sweep(const Sweep& sweep) {
@@ -84,6 +87,7 @@ class Odometry::Impl {
   AdaptiveThreshold threshold_;
   LocalMap map_;
   ElevationOffsetEstimator elevation_;
+  BeamCalibration beams_;
   RigidLever elevation_lever_;  // how the last pose moves with the sensor's elevation angles
   Trajectory trajectory_;
   MotionState state_;
@@ -118,6 +122,9 @@ SweepResult Odometry::Impl::process(const Sweep& sweep) {
   result.stats.elevation_offset_rad = elevation_.offset_rad();
   result.stats.elevation_offset_sigma_rad = elevation_.sigma_rad();
   result.stats.elevation_applied_rad = elevation_.applied_rad();
+  const Eigen::Vector2d beams_rad = beams_.rms_rad();
+  result.stats.beam_elevation_rms_rad = beams_rad.x();
+  result.stats.beam_azimuth_rms_rad = beams_rad.y();
   trajectory_.push_back({result.stamp_ns, state_.T_odom_lidar});
   mark = begin;
   result.stats.times.total_ms = ms_since(mark);
@@ -249,6 +256,10 @@ void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp,
   if (config_.elevation.enabled) {
     learn_elevation(prepared, icp, result.status == OdometryStatus::kOk);
   }
+  if (config_.beams.enabled && result.status == OdometryStatus::kOk && sweeps_in_map_ >= kStartSweeps) {
+    beams_.learn(prepared.beam_sample, map_, icp, threshold_.sigma_th_m(), config_.icp);
+    preprocessor_.set_beam_angles(beams_.angles());
+  }
   lost_ = false;
   lost_on_this_map_ = 0;
   ++sweeps_in_map_;
@@ -314,6 +325,7 @@ void Odometry::Impl::reset() {
   initial_pose_.reset();
   threshold_.reset();
   elevation_.reset();
+  beams_.reset();
   elevation_lever_ = {};
   map_.clear();
   trajectory_.clear();

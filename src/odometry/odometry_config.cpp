@@ -66,6 +66,7 @@ void validate(const OdometryConfig& c) {
       {"elevation.significance", c.elevation.significance, 0, 1e6},
       {"elevation.least_deg", c.elevation.least_deg, 0, 90},
       {"elevation.step_deg", c.elevation.step_deg, 0, 90},
+      {"beams.gain", c.beams.gain, 0, 1},
       {"map.voxel_m", c.map.voxel_m, 1e-2, 1e2},
       {"map.levels", static_cast<double>(c.map.levels), 1, 10},
       {"map.scene_voxels", c.map.scene_voxels, 1, 1e4},

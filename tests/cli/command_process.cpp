@@ -66,7 +66,7 @@ bool CommandProcess::ended() {
 bool CommandProcess::wait_until(const std::function<bool()>& condition) {
   while (std::chrono::steady_clock::now() < deadline_) {
     if (condition()) return true;
-    if (ended()) return false;
+    if (ended()) return condition();  // it may have come true in between
     std::this_thread::sleep_for(kPoll);
   }
   return false;

@@ -29,6 +29,7 @@ class CommandProcess {
   CommandProcess& operator=(const CommandProcess&) = delete;
 
   void send(int signal) const;
+  pid_t pid() const { return pid_; }
   /// Waits until `condition` holds; false when the process ended or the time is over before.
   bool wait_until(const std::function<bool()>& condition);
   Outcome wait();

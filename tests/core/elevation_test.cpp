@@ -18,6 +18,13 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
+/// The voxels that the scenes are made for.
+LocalMapConfig map_config() {
+  LocalMapConfig config;
+  config.voxel_m = 0.25;
+  return config;
+}
+
 TEST(Elevation, ATurnKeepsRangeAndAzimuthAndAddsTheAngle) {
   const ElevationTurn turn(0.01);
   for (const Eigen::Vector3f& p : {Eigen::Vector3f(10, 0, 0), Eigen::Vector3f(-3, 4, -2), Eigen::Vector3f(1, -7, 5)}) {
@@ -52,10 +59,10 @@ TEST(Elevation, TheMapMovesAsIfItHadBeenMadeOfTurnedPoints) {
   }
   SE3 T = SE3::Identity();
   T.translation() << 3, -1, 0.5;
-  LocalMap map({});
+  LocalMap map(map_config());
   map.insert(points, T);
   map.turn_elevation(angle, {});
-  LocalMap expected({});
+  LocalMap expected(map_config());
   expected.insert(turned, T);
   MapPlane plane;
   MapPlane expected_plane;
@@ -65,7 +72,7 @@ TEST(Elevation, TheMapMovesAsIfItHadBeenMadeOfTurnedPoints) {
   EXPECT_LT((plane.point - expected_plane.point).norm(), 1e-4);
   EXPECT_GT(std::abs(plane.point.z() - centre.z()), 0.015);  // it did move
   // Seen from a sensor that moves along, nothing does.
-  LocalMap along({});
+  LocalMap along(map_config());
   along.insert(points, T, {});
   const RigidLever lever{centre, Eigen::Vector3d::Zero(), plane.elevation_lever.cast<double>()};
   along.turn_elevation(angle, lever);
@@ -88,7 +95,7 @@ double cost_at(double angle_rad, const TimedCloud& source, LocalMap map, const M
 TEST(Elevation, TheGradientAgreesWithDifferences) {
   SceneSampling sampling;
   sampling.spacing_m = 0.05;
-  LocalMap map({});
+  LocalMap map(map_config());
   map.set_scene_range(6.0);
   map.insert(make_box_room({9.3, 7.1, 3.3}, sampling), SE3::Identity());
   Vector6d moved;

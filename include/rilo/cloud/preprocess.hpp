@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "rilo/cloud/beam_angles.hpp"
+#include "rilo/cloud/beam_index.hpp"
+#include "rilo/cloud/beam_sample.hpp"
 #include "rilo/cloud/preprocess_config.hpp"
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/cloud/timed_cloud.hpp"
@@ -17,6 +20,7 @@ struct PreparedSweep {
   std::size_t valid_points = 0;   ///< finite and within range
   TimedCloud map_cloud;           ///< one point per map voxel, the mean of its points
   TimedCloud source;              ///< S, one point per source voxel, the mean of its points
+  BeamSample beam_sample;         ///< some of the points as measured; empty unless beams are tracked
   double scene_range_m = 0;       ///< median range of S, smoothed over the sweeps: how large the place is
 };
 
@@ -31,10 +35,17 @@ class Preprocessor {
   /// Angle (rad) added to the elevation angle of every point from now on.
   void set_elevation_offset(double offset_rad) { elevation_offset_rad_ = offset_rad; }
 
+  /// Angles added to those of single beams from now on.
+  void set_beam_angles(const BeamAngles& angles) { beam_angles_ = angles; }
+
+  /// Whether to find out which beam each point came from: fills the sample, and corrects the angles of single beams.
+  void track_beams(bool tracked) { beams_tracked_ = tracked; }
+
   void reset();
 
  private:
   void crop(const Sweep& sweep);
+  void sample_beams();
   void normalise_times(const Sweep& sweep);
   void downsample(double source_voxel_m);
   void adapt_voxel();
@@ -48,6 +59,12 @@ class Preprocessor {
   VoxelMean source_mean_;
   double source_voxel_m_ = 0;  // 0: no sweep has been seen
   double elevation_offset_rad_ = 0;
+  bool beams_tracked_ = false;
+  BeamIndex beam_index_;
+  BeamAngles beam_angles_;
+  std::vector<Beam> beams_;          // of the points of the sweep
+  std::vector<Beam> cropped_beams_;  // of those of cropped_
+  std::size_t sample_phase_ = 0;
   // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its
   // seam, and the reference instant must not.
   bool span_known_ = false;

@@ -9,6 +9,7 @@
 #include "rilo/odometry/motion_prediction_config.hpp"
 #include "rilo/odometry/motion_prior_config.hpp"
 #include "rilo/registration/adaptive_icp_config.hpp"
+#include "rilo/registration/beam_calibration_config.hpp"
 #include "rilo/registration/coarse_registration_config.hpp"
 #include "rilo/registration/elevation_offset_config.hpp"
 
@@ -26,6 +27,7 @@ struct OdometryConfig {
   AdaptiveIcpConfig icp;
   LocalMapConfig map;
   ElevationOffsetConfig elevation;
+  BeamCalibrationConfig beams;
   HealthConfig health;
 };
 

@@ -82,6 +82,8 @@ struct SweepStats {
   double elevation_offset_rad = 0;               ///< estimate of the angle that the sensor's elevation angles lack
   double elevation_offset_sigma_rad = 0;         ///< its standard deviation; infinite before there is one
   double elevation_applied_rad = 0;              ///< angle added to those of the next sweep
+  double beam_elevation_rms_rad = 0;             ///< what is added to single beams of the next sweep, over the beams
+  double beam_azimuth_rms_rad = 0;
   StageTimes times;
 };
 

@@ -1,0 +1,19 @@
+// Differences to an earlier benchmark.
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "bench_tables.hpp"
+
+namespace rilo::cli {
+
+/// results.json of an earlier run. @throws IoError when it is none.
+nlohmann::json read_baseline(const std::filesystem::path& file);
+
+/// New minus old for each cell that both have; cells of only one are named in the note.
+TitledTable baseline_table(const std::vector<BenchCell>& cells, const nlohmann::json& baseline,
+                           const std::filesystem::path& file);
+
+}  // namespace rilo::cli

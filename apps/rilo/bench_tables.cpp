@@ -1,0 +1,211 @@
+#include "bench_tables.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace rilo::cli {
+
+namespace {
+
+const std::vector<std::string> kAccuracy = {"t_rel_pct",  "r_rel_deg_per_100m",   "ape_rmse_m",
+                                            "ape_mean_m", "ape_unaligned_rmse_m", "rpe_frame_rmse_m"};
+const std::vector<std::string> kEffort = {
+    "ms_mean",         "ms_median",          "ms_p95",          "ms_p99",     "ms_max",
+    "mean_iterations", "selection_rate_pct", "coarse_rate_pct", "peak_rss_mb"};
+
+void add_titles(TextTable& table, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) table.header.emplace_back(bench_figure(key).title);
+}
+
+void add_values(std::vector<std::string>& row, const BenchCell& cell, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) {
+    const BenchFigure& figure = bench_figure(key);
+    row.push_back(shown(value_of(cell, figure), figure.digits));
+  }
+}
+
+std::string text_at(const nlohmann::json& metrics, const char* pointer) {
+  const nlohmann::json::json_pointer place(pointer);
+  if (!metrics.contains(place)) return "-";
+  const nlohmann::json& value = metrics.at(place);
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// "ok 11, initialising 1"; what did not occur is left out.
+std::string statuses(const nlohmann::json& metrics) {
+  std::string text;
+  if (!metrics.contains("status")) return "-";
+  for (const auto& [name, count] : metrics["status"].items()) {
+    if (count.get<std::size_t>() > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count.dump());
+  }
+  return text;
+}
+
+TitledTable accuracy(const std::vector<BenchCell>& cells) {
+  TitledTable result{"Accuracy", {}, ""};
+  result.table.left = 2;
+  result.table.header = {"sequence", "configuration", "poses"};
+  add_titles(result.table, kAccuracy);
+  result.table.header.insert(result.table.header.end(), {"instant", "truth at", "given °", "own °"});
+  for (const BenchCell& cell : cells) {
+    std::vector<std::string> row = {cell.sequence, cell.configuration,
+                                    cell.failed() ? "failed" : text_at(cell.metrics, "/evaluation/poses")};
+    add_values(row, cell, kAccuracy);
+    for (const char* place : {"/pose_instant", "/evaluation/truth_instant", "/elevation_correction_deg"}) {
+      row.push_back(text_at(cell.metrics, place));
+    }
+    add_values(row, cell, {"elevation_offset_applied_deg"});
+    result.table.rows.push_back(row);
+  }
+  result.note =
+      "APE after SE(3) alignment, unaligned with the first poses made equal; RPE a sweep, rmse; given °: added to the "
+      "points' elevation angles as told; own °: added on top of it, found by Rilo itself, at the last sweep.";
+  return result;
+}
+
+TitledTable effort(const std::vector<BenchCell>& cells) {
+  TitledTable result{"Effort", {}, ""};
+  result.table.left = 2;
+  result.table.header = {"sequence", "configuration", "sweeps"};
+  add_titles(result.table, kEffort);
+  result.table.header.emplace_back("status");
+  for (const BenchCell& cell : cells) {
+    if (cell.peer) continue;
+    std::vector<std::string> row = {cell.sequence, cell.configuration,
+                                    cell.failed() ? "failed" : text_at(cell.metrics, "/frames")};
+    add_values(row, cell, kEffort);
+    row.push_back(statuses(cell.metrics));
+    result.table.rows.push_back(row);
+  }
+  result.note =
+      "Milliseconds a sweep without reading. selected: sweeps that began with the coarse result; coarse: that "
+      "ran the coarse stage.";
+  return result;
+}
+
+TitledTable averages(const std::vector<BenchCell>& cells) {
+  TitledTable result{"Averages of the configurations", {}, ""};
+  result.table.header = {"configuration", "sequences", "t_rel % pooled", "r_rel pooled"};
+  std::vector<std::string> keys = kAccuracy;
+  keys.insert(keys.end(), {"ms_mean", "mean_iterations", "selection_rate_pct", "coarse_rate_pct"});
+  add_titles(result.table, keys);
+  for (const BenchSummary& summary : summaries(cells)) {
+    const std::size_t all = summary.cells + summary.failed;
+    std::vector<std::string> row = {
+        summary.configuration, summary.failed == 0 ? std::to_string(all) : fmt::format("{} of {}", summary.cells, all),
+        shown(summary.kitti.pooled_t_rel_pct, 4), shown(summary.kitti.pooled_r_rel_deg_100m, 4)};
+    for (const std::string& key : keys) {
+      const BenchFigure& figure = bench_figure(key);
+      row.push_back(shown(summary.means[static_cast<std::size_t>(&figure - bench_figures().data())], figure.digits));
+    }
+    result.table.rows.push_back(row);
+  }
+  result.note =
+      "Pooled: over all segments of all sequences (KITTI devkit). All others: mean of the sequences' figures.";
+  return result;
+}
+
+// A row a sequence, a column a configuration: what an experiment is read from.
+TitledTable by_sequence(const std::vector<BenchCell>& cells, const std::vector<BenchSummary>& columns,
+                        const std::string& key) {
+  const BenchFigure& figure = bench_figure(key);
+  TitledTable result{fmt::format("{} of each sequence", figure.title), {}, ""};
+  result.table.header = {"sequence"};
+  for (const BenchSummary& column : columns) result.table.header.push_back(column.configuration);
+  for (const BenchCell& cell : cells) {
+    auto& rows = result.table.rows;
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r[0] == cell.sequence; });
+    if (row == rows.end()) {
+      row = rows.insert(rows.end(), std::vector<std::string>(columns.size() + 1));
+      row->front() = cell.sequence;
+    }
+    const auto column = std::find_if(columns.begin(), columns.end(), [&](const BenchSummary& c) {
+      return c.configuration == cell.configuration && c.peer == cell.peer;
+    });
+    (*row)[static_cast<std::size_t>(column - columns.begin()) + 1] =
+        cell.failed() ? "failed" : shown(value_of(cell, figure), figure.digits);
+  }
+  return result;
+}
+
+std::string failures(const std::vector<BenchCell>& cells) {
+  std::string text;
+  for (const BenchCell& cell : cells) {
+    if (cell.failed()) text += fmt::format("failed: {} × {}: {}\n", cell.sequence, cell.configuration, cell.error);
+  }
+  return text;
+}
+
+// Without loss.
+std::string exact(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
+
+}  // namespace
+
+std::string shown(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+std::vector<TitledTable> bench_tables(const std::vector<BenchCell>& cells) {
+  std::vector<TitledTable> tables = {accuracy(cells), effort(cells), averages(cells)};
+  const std::string failed = failures(cells);
+  if (!failed.empty()) tables.back().note += "\n" + failed.substr(0, failed.size() - 1);
+  const std::vector<BenchSummary> columns = summaries(cells);
+  if (columns.size() > 1) {
+    tables.push_back(by_sequence(cells, columns, "t_rel_pct"));
+    tables.push_back(by_sequence(cells, columns, "ape_rmse_m"));
+  }
+  return tables;
+}
+
+TextTable bench_csv(const std::vector<BenchCell>& cells) {
+  TextTable table;
+  table.header = {"row", "sequence", "configuration", "kind"};
+  for (const BenchFigure& figure : bench_figures()) table.header.emplace_back(figure.key);
+  table.header.insert(table.header.end(), {"frames", "status", "pose_instant", "truth_instant", "point_times",
+                                           "elevation_correction_deg", "error"});
+  for (const BenchCell& cell : cells) {
+    std::vector<std::string> row = {"cell", cell.sequence, cell.configuration, cell.peer ? "peer" : "run"};
+    for (const BenchFigure& figure : bench_figures()) row.push_back(exact(value_of(cell, figure)));
+    row.push_back(text_at(cell.metrics, "/frames"));
+    row.push_back(statuses(cell.metrics));
+    for (const char* place :
+         {"/pose_instant", "/evaluation/truth_instant", "/point_times", "/elevation_correction_deg"}) {
+      row.push_back(text_at(cell.metrics, place));
+    }
+    row.push_back(cell.error);
+    table.rows.push_back(row);
+  }
+  for (const BenchSummary& summary : summaries(cells)) {
+    const std::string kind = summary.peer ? "peer" : "run";
+    table.rows.push_back({"pooled", "", summary.configuration, kind, exact(summary.kitti.pooled_t_rel_pct),
+                          exact(summary.kitti.pooled_r_rel_deg_100m)});
+    std::vector<std::string> row = {"mean", "", summary.configuration, kind};
+    for (const auto& mean : summary.means) row.push_back(exact(mean));
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+std::string plain_text(const std::vector<TitledTable>& tables) {
+  std::string text;
+  for (const TitledTable& t : tables) {
+    text += (text.empty() ? "" : "\n") + t.title + "\n" + t.table.plain() + (t.note.empty() ? "" : t.note + "\n");
+  }
+  return text;
+}
+
+std::string markdown_text(const std::vector<TitledTable>& tables) {
+  std::string text;
+  for (const TitledTable& t : tables) {
+    text += (text.empty() ? "## " : "\n## ") + t.title + "\n\n" + t.table.markdown();
+    if (!t.note.empty()) {
+      text += "\n";
+      for (const char c : t.note) text += c == '\n' ? std::string("\n\n") : std::string(1, c);
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace rilo::cli

@@ -1,0 +1,30 @@
+#include "failure.hpp"
+
+#include <exception>
+#include <new>
+#include <stdexcept>
+
+#include "rilo/config/config_error.hpp"
+#include "rilo/io/io_error.hpp"
+
+namespace rilo::cli {
+
+Failure current_failure() {
+  try {
+    throw;
+  } catch (const CommandError& error) {
+    return {error.code(), error.what()};
+  } catch (const ConfigError& error) {
+    return {kUsage, error.what()};
+  } catch (const IoError& error) {
+    return {kBadData, error.what()};
+  } catch (const std::invalid_argument& error) {
+    return {kUsage, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {kUnexpected, "out of memory"};
+  } catch (const std::exception& error) {
+    return {kUnexpected, error.what()};
+  }
+}
+
+}  // namespace rilo::cli

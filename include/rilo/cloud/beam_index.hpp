@@ -1,0 +1,40 @@
+// Which beam a point came from.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "rilo/cloud/sweep.hpp"
+
+namespace rilo {
+
+/// Index of a point's beam, or of a narrow range of elevation angles.
+using Beam = std::uint16_t;
+
+inline constexpr Beam kNoBeam = 0xFFFF;
+inline constexpr std::size_t kBeams = 1024;  ///< indices are below
+
+/// Fills `beams` with one index a point, kNoBeam where there is none: the sweep's rings where it has them. Otherwise an
+/// index stands for a narrow range of elevation angles: of a whole turn when the points lie beam by beam (as in KITTI's
+/// files, where motion compensation has blurred the angles of single points), of each point when they do not.
+class BeamIndex {
+ public:
+  void assign(const Sweep& sweep, std::vector<Beam>& beams);
+
+ private:
+  struct Turn {
+    std::size_t first = 0;  // its first point
+    std::size_t count = 0;
+    double sum = 0;  // of the tangents of the elevation angles of its points
+    double squares = 0;
+  };
+  float find_tangents(const std::vector<Eigen::Vector3f>& points);
+  bool find_turns(const std::vector<Eigen::Vector3f>& points, float direction);
+  bool turns_are_beams() const;
+
+  std::vector<Turn> turns_;
+  std::vector<float> tangents_;
+};
+
+}  // namespace rilo

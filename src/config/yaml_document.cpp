@@ -1,0 +1,91 @@
+#include "config/yaml_document.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include <yaml-cpp/eventhandler.h>
+
+#include "rilo/config/config_error.hpp"
+
+namespace rilo::detail {
+namespace {
+
+constexpr std::size_t kLargestFile = std::size_t{1} << 20;
+
+/// Takes no notice of what a parser finds.
+class IgnoreEvents : public YAML::EventHandler {
+ public:
+  using Mark = YAML::Mark;
+  using Anchor = YAML::anchor_t;
+  using Style = YAML::EmitterStyle::value;
+  void OnDocumentStart(const Mark& /*mark*/) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const Mark& /*mark*/, Anchor /*anchor*/) override {}
+  void OnAlias(const Mark& /*mark*/, Anchor /*anchor*/) override {}
+  void OnScalar(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/,
+                const std::string& /*value*/) override {}
+  void OnSequenceStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/, Style /*style*/) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/, Style /*style*/) override {}
+  void OnMapEnd() override {}
+};
+
+/// YAML::LoadAll would do, but at a stray comma it adds documents until memory runs out (yaml-cpp 0.7).
+bool has_second_document(std::string_view yaml) {
+  std::istringstream stream{std::string(yaml)};
+  YAML::Parser parser(stream);
+  IgnoreEvents ignore;
+  return parser.HandleNextDocument(ignore) && parser.HandleNextDocument(ignore);
+}
+
+}  // namespace
+
+std::string position_of(const YAML::Mark& mark) {
+  if (mark.is_null()) return "";
+  return "line " + std::to_string(mark.line + 1) + ", column " + std::to_string(mark.column + 1);
+}
+
+std::string quoted(const std::string& text) {
+  return "\"" + (text.size() <= kLongestQuote ? text : text.substr(0, kLongestQuote) + "…") + "\"";
+}
+
+std::string kind_of(const YAML::Node& node) {
+  if (node.IsMap()) return "a map of keys";
+  if (node.IsSequence()) return "a list";
+  if (!node.IsScalar()) return "no value";
+  return quoted(node.Scalar());
+}
+
+std::string read_yaml_file(const std::filesystem::path& file, const std::string& expected, const std::string& remedy) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    const bool exists = std::filesystem::exists(file, error);
+    throw ConfigError(
+        {file, "", exists ? "this is no regular file" : "there is nothing of this name", expected, remedy});
+  }
+  std::ifstream stream(file, std::ios::binary);
+  std::string text;
+  text.resize(kLargestFile + 1);
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad() || (stream.fail() && !stream.eof())) {
+    throw ConfigError({file, "", "it cannot be read", "a readable file", "Check its permissions"});
+  }
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > kLargestFile) {
+    throw ConfigError({file, "", "more than 1 MiB", expected, "Check the path"});
+  }
+  return text;
+}
+
+YAML::Node parse_yaml(std::string_view yaml, const std::string& name, const std::string& hint) {
+  try {
+    if (has_second_document(yaml)) throw ConfigError({name, "", "a second document", "one document", ""});
+    return YAML::Load(std::string(yaml));
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(
+        {name, position_of(error.mark), "this is no YAML (" + error.msg + ")", "\"key: value\" lines", hint});
+  }
+}
+
+}  // namespace rilo::detail

@@ -1,0 +1,198 @@
+// rilo bench FILE.
+#include <csignal>
+#include <fstream>
+#include <sys/types.h>
+
+#include <gmock/gmock.h>
+
+#include "cli/drives.hpp"
+
+namespace rilo::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+const char* const kConfigurations = "configurations:\n  - name: full\n  - name: A\n    set: [coarse.enabled=false]\n";
+
+std::string sequence(const std::string& name, const fs::path& path, const std::string& more = "") {
+  return "  - {name: " + name + ", path: '" + path.string() + "'" + more + "}\n";
+}
+
+// "sequence × configuration" of each cell.
+json cell_of(const json& results, const std::string& sequence_name, const std::string& configuration) {
+  for (const json& cell : results["cells"]) {
+    if (cell["sequence"] == sequence_name && cell["configuration"] == configuration) return cell;
+  }
+  return nullptr;
+}
+
+TEST(BenchCommand, TwoSequencesTimesTwoConfigurations) {
+  const TempDir folder;
+  const auto plan =
+      folder.write("plan.yaml", "sequences:\n" + sequence("one", shared_drive()) +
+                                    sequence("short", shared_drive(), ", start: 2, count: 5") + kConfigurations);
+  const Outcome bench = rilo_succeeds({"bench", plan, "--out", folder / "out", "--threads", "1"});
+  for (const char* part : {"Accuracy", "Effort", "Averages", "t_rel % pooled", "APE rmse m", "p99", "peak MiB"}) {
+    EXPECT_THAT(bench.out, HasSubstr(part));
+  }
+  const json results = json_file(folder / "out" / "results.json");
+  ASSERT_EQ(results["cells"].size(), 4U);
+  EXPECT_EQ(results["cells_run"], 4);
+  EXPECT_EQ(cell_of(results, "short", "A")["metrics"]["frames"], 5);
+  EXPECT_EQ(cell_of(results, "one", "full")["metrics"]["frames"], kDriveSweeps);
+  EXPECT_EQ(cell_of(results, "one", "A")["metrics"]["coarse_runs"], 0);
+  EXPECT_GT(cell_of(results, "one", "full")["metrics"]["coarse_runs"], 0);
+  EXPECT_EQ(lines_with(slurp(folder / "out" / "results.csv"), "cell,").size(), 4U);
+  EXPECT_THAT(slurp(folder / "out" / "results.md"), HasSubstr("| one | full | 12 |"));
+}
+
+TEST(BenchCommand, FiguresAreThoseOfARun) {
+  const TempDir folder;
+  const auto plan = folder.write("plan.yaml", "sequences:\n" + sequence("one", shared_drive()));
+  rilo_succeeds({"bench", plan, "--out", folder / "bench", "--quiet"});
+  rilo_succeeds({"run", shared_drive(), "--out", folder / "run", "--quiet"});
+  const json cell = cell_of(json_file(folder / "bench" / "results.json"), "one", "default");
+  const json run = json_file(folder / "run" / "metrics.json");
+  EXPECT_EQ(cell["metrics"]["evaluation"], run["evaluation"]);
+  EXPECT_EQ(cell["figures"]["t_rel_pct"], run["t_rel_pct"]);
+  EXPECT_EQ(cell["figures"]["mean_iterations"], run["mean_iterations"]);
+}
+
+TEST(BenchCommand, ABrokenCellIsListedAndTheOthersRun) {
+  const TempDir folder;
+  const auto broken = copy_of_drive(folder);
+  append(sweep_file(broken, 4), 3);
+  const auto plan =
+      folder.write("plan.yaml", "sequences:\n" + sequence("broken", broken) + sequence("none", folder / "nowhere") +
+                                    sequence("good", shared_drive()) + kConfigurations);
+  const Outcome bench = rilo_fails(3, {"bench", plan, "--out", folder / "out", "--count", "6", "--quiet"},
+                                   {"4 of 6 cells failed", "broken × full", "000004.bin"});
+  EXPECT_THAT(bench.out, HasSubstr("failed: none × A"));
+  const json results = json_file(folder / "out" / "results.json");
+  ASSERT_EQ(results["cells"].size(), 6U);
+  EXPECT_FALSE(cell_of(results, "good", "A").contains("error"));
+  EXPECT_THAT(cell_of(results, "none", "full")["error"].get<std::string>(), HasSubstr("nowhere"));
+  EXPECT_THAT(slurp(folder / "out" / "results.md"), HasSubstr("000004.bin"));
+}
+
+TEST(BenchCommand, PeakMemoryIsOfEachCellAlone) {
+  const TempDir folder;
+  const auto plan =
+      folder.write("plan.yaml", "sequences:\n" + sequence("one", shared_drive()) +
+                                    "configurations:\n  - name: many points\n"
+                                    "    set: [preprocess.source_points=1000000, preprocess.min_voxel_m=0.01]\n"
+                                    "  - name: few points\n"
+                                    "    set: [preprocess.source_points=500, map.levels=1]\n");
+  rilo_succeeds({"bench", plan, "--out", folder / "out", "--quiet", "--threads", "1"});
+  const json results = json_file(folder / "out" / "results.json");
+  const double many = cell_of(results, "one", "many points")["figures"]["peak_rss_mb"];
+  const double few = cell_of(results, "one", "few points")["figures"]["peak_rss_mb"];
+  EXPECT_GT(few, 0);
+  EXPECT_LT(few, many);
+}
+
+TEST(BenchCommand, ComparesWithEarlierResults) {
+  const TempDir folder;
+  const auto plan = folder.write("plan.yaml", "sequences:\n" + sequence("one", shared_drive()));
+  rilo_succeeds({"bench", plan, "--out", folder / "out", "--quiet"});
+  const auto other = folder.write("other.yaml", "sequences:\n" + sequence("one", shared_drive()) + kConfigurations);
+  const Outcome again = rilo_succeeds({"bench", plan, "--baseline", folder / "out" / "results.json", "--quiet"});
+  EXPECT_THAT(again.out, HasSubstr("Difference to"));
+  EXPECT_THAT(again.out, HasSubstr("+0.0000"));
+  EXPECT_THAT(again.out, Not(HasSubstr("only in the baseline")));
+  const Outcome more = rilo_succeeds({"bench", other, "--baseline", folder / "out" / "results.json", "--quiet"});
+  EXPECT_THAT(more.out, HasSubstr("not in the baseline: one × A"));
+  EXPECT_THAT(more.out, HasSubstr("only in the baseline: one × default"));
+  rilo_fails(3, {"bench", plan, "--baseline", plan}, {"no JSON", "results.json"});
+}
+
+TEST(BenchCommand, ComparesWithPoseFiles) {
+  const TempDir folder;
+  rilo_succeeds({"run", shared_drive(), "--out", folder / "run", "--quiet"});
+  const std::string peers = ", peers: {same: run/poses_lidar.txt, stamped: run/trajectory.tum, none: nothing.txt}";
+  const auto plan = folder.write("plan.yaml", "sequences:\n" + sequence("one", shared_drive(), peers));
+  const Outcome bench =
+      rilo_fails(3, {"bench", plan, "--out", folder / "out", "--quiet"}, {"one × none", "nothing.txt"});
+  EXPECT_THAT(bench.out, HasSubstr("stamped"));
+  const json results = json_file(folder / "out" / "results.json");
+  const double ours = cell_of(results, "one", "default")["figures"]["ape_rmse_m"];
+  for (const char* peer : {"same", "stamped"}) {
+    const json cell = cell_of(results, "one", peer);
+    EXPECT_EQ(cell["kind"], "peer");
+    EXPECT_NEAR(cell["figures"]["ape_rmse_m"].get<double>(), ours, 1e-5) << peer;
+    EXPECT_TRUE(cell["figures"]["ms_mean"].is_null());
+  }
+}
+
+TEST(BenchCommand, DataAndRootOfTheCommandLine) {
+  const TempDir folder;
+  const auto plan = folder.write("plan.yaml", "sequences: [{path: drive}]\n");
+  rilo_fails(3, {"bench", plan, "--quiet"}, {"drive"});
+  EXPECT_THAT(rilo_succeeds({"bench", plan, "--root", shared_drive().parent_path(), "--count", "3"}).out,
+              HasSubstr("drive"));
+  rilo_succeeds({"bench", plan, "--data", shared_drive(), "--count", "3"});
+  rilo_fails(2, {"bench", folder.write("empty.yaml", kConfigurations)}, {"no sequences", "--data"});
+}
+
+TEST(BenchCommand, InterruptedItKeepsWhatIsFinished) {
+  const TempDir folder;
+  const auto plan = folder.write(
+      "plan.yaml", "sequences:\n" + sequence("quick", shared_drive()) + sequence("endless", long_folder(folder, 3000)));
+  const fs::path file = folder / "out" / "results.json";
+  for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)}) {
+    fs::remove(file);
+    CommandProcess bench({"bench", plan, "--out", folder / "out", "--threads", "1"});
+    EXPECT_TRUE(bench.wait_until([&] { return fs::exists(file); }));
+    bench.send(signal);
+    const Outcome outcome = bench.wait();
+    EXPECT_EQ(outcome.exit_code, code) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("1 of 2 cells"));
+    EXPECT_THAT(outcome.out, HasSubstr("quick"));
+    const json results = json_file(file);
+    EXPECT_EQ(results["interrupted"], true);
+    ASSERT_EQ(results["cells"].size(), 1U);
+    EXPECT_EQ(results["cells"][0]["sequence"], "quick");
+  }
+}
+
+// The process of the cell that runs; 0: none.
+pid_t child_of(pid_t parent) {
+  const std::string number = std::to_string(parent);
+  std::ifstream children("/proc/" + number + "/task/" + number + "/children");
+  pid_t child = 0;
+  children >> child;
+  return child;
+}
+
+TEST(BenchCommand, ACellWhoseProcessIsKilledFailsAlone) {
+  const TempDir folder;
+  const auto plan = folder.write(
+      "plan.yaml", "sequences:\n" + sequence("endless", long_folder(folder, 3000)) + sequence("quick", shared_drive()));
+  CommandProcess bench({"bench", plan, "--out", folder / "out", "--threads", "1", "--quiet"});
+  pid_t child = 0;
+  ASSERT_TRUE(bench.wait_until([&] { return (child = child_of(bench.pid())) > 0; }));
+  ::kill(child, SIGKILL);
+  const Outcome outcome = bench.wait();
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("signal 9"));
+  const json results = json_file(folder / "out" / "results.json");
+  ASSERT_EQ(results["cells"].size(), 2U);
+  EXPECT_THAT(cell_of(results, "endless", "default")["error"].get<std::string>(), HasSubstr("memory"));
+  EXPECT_FALSE(cell_of(results, "quick", "default").contains("error"));
+}
+
+TEST(BenchCommand, WrongPlansEndBeforeAnythingIsRun) {
+  const TempDir folder;
+  rilo_fails(2, {"bench"}, {"FILE is required"});
+  rilo_fails(2, {"bench", folder / "none.yaml"}, {"none.yaml"});
+  rilo_fails(2, {"bench", folder.write("a.yaml", "sequences: [{pth: a}]")}, {"a.yaml", "line 1", "pth"});
+  const auto good = folder.write("good.yaml", "sequences:\n" + sequence("one", shared_drive()));
+  const auto file = folder.write("file", "");
+  rilo_fails(4, {"bench", good, "--out", file / "out"}, {"file"});
+}
+
+}  // namespace
+}  // namespace rilo::test

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "io/stamp_difference.hpp"
+
 namespace rilo::detail {
 namespace {
 
@@ -65,7 +67,7 @@ class StampOrder final : public ScanSource {
 
   // Whether the sweep is used; counts what is wrong with it.
   bool judge(const Sweep& sweep) {
-    const std::int64_t back_ns = *newest_ - sweep.stamp_ns;
+    const std::int64_t back_ns = stamp_difference(*newest_, sweep.stamp_ns);
     if (back_ns < 0) {
       if (!skipped_) look_for_gap(static_cast<double>(-back_ns) * 1e-9);
       return true;

@@ -29,7 +29,7 @@ class Reader final : public Recording {
       chunks_.clear();
       counts_.clear();
     }
-    if (known_.channels.empty()) scan();
+    if (!summary_tells()) scan();
     list_topics();
   }
 
@@ -99,8 +99,17 @@ class Reader final : public Recording {
     }
   }
 
+  // A summary may leave out the channels or their schemas.
+  bool summary_tells() const {
+    const auto is_told = [&](const auto& channel) {
+      return channel.second.schema_id == 0 || known_.schemas.contains(channel.second.schema_id);
+    };
+    return !known_.channels.empty() && std::all_of(known_.channels.begin(), known_.channels.end(), is_told);
+  }
+
   // Without a summary: once through the whole file for topics and counts.
   void scan() {
+    counts_.clear();
     for (bool more = true; more;) {
       try {
         more = walk([&](const MessageHeader& header) {

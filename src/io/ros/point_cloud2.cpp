@@ -91,9 +91,11 @@ std::optional<ScalarType> scalar_type(std::uint8_t datatype) {
 
 // The points without what pads the rows.
 struct PointBytes {
-  std::string_view data;
+  std::string_view in_message;
   std::string copy;  // used when the rows are padded
   std::size_t count = 0;
+
+  const char* data() const { return copy.empty() ? in_message.data() : copy.data(); }
 };
 
 std::string shape_of(const PointCloud2& m) {
@@ -113,7 +115,7 @@ PointBytes points_of(const PointCloud2& m, const BytesOrigin& origin) {
   points.count = static_cast<std::size_t>(count);
   // Some drivers leave row_step unset: without padding it is not needed.
   if (!too_much && (m.height == 1 || m.row_step == row_bytes || whole == m.data.size()) && whole <= m.data.size()) {
-    points.data = m.data.substr(0, static_cast<std::size_t>(whole));
+    points.in_message = m.data.substr(0, static_cast<std::size_t>(whole));
     return points;
   }
   const std::uint64_t needed = std::uint64_t{m.row_step} * (m.height - 1) + row_bytes;
@@ -124,7 +126,6 @@ PointBytes points_of(const PointCloud2& m, const BytesOrigin& origin) {
   for (std::uint64_t row = 0; row < m.height; ++row) {
     points.copy += m.data.substr(static_cast<std::size_t>(row * m.row_step), static_cast<std::size_t>(row_bytes));
   }
-  points.data = points.copy;
   return points;
 }
 
@@ -186,7 +187,7 @@ RawCloud columns_of(const PointCloud2& message, const std::string& time_field, c
   std::vector<detail::ColumnView> columns(fields.size());
   for (const std::size_t i : roles.all()) {
     detail::check_inside(message, *described[i], origin);
-    columns[i] = {points.data.data() + described[i]->offset, message.point_step, fields[i].type, false};
+    columns[i] = {points.data() + described[i]->offset, message.point_step, fields[i].type, false};
   }
   return detail::assemble_cloud(fields, roles, columns, points.count);
 }

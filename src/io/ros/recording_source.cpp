@@ -1,13 +1,12 @@
 #include "io/ros/recording_source.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
 #include "io/cloud_columns.hpp"
 #include "io/scan_listing.hpp"
+#include "io/stamp_difference.hpp"
 #include "io/text.hpp"
 
 namespace rilo::detail {
@@ -128,14 +127,14 @@ Sweep RecordingSource::decode(const RecordedMessage& message) {
   sweep.intensities = std::move(columns.intensities);
   sweep.rings = std::move(columns.rings);
   timing_->apply(columns.times, current_name(), 0, sweep);
-  note_lateness(message.received_ns - cloud.stamp_ns);
+  note_lateness(stamp_difference(message.received_ns, cloud.stamp_ns));
   return sweep;
 }
 
 // A sweep is late when it reached the recorder more than a period later than the promptest one.
 void RecordingSource::note_lateness(std::int64_t late_ns) {
   usual_delay_ns_ = std::min(usual_delay_ns_.value_or(late_ns), late_ns);
-  const double late_s = static_cast<double>(late_ns - *usual_delay_ns_) * 1e-9;
+  const double late_s = (static_cast<double>(late_ns) - static_cast<double>(*usual_delay_ns_)) * 1e-9;
   if (late_s <= info_.period_s) return;
   ++info_.faults.late;
   info_.faults.most_late_s = std::max(info_.faults.most_late_s, late_s);

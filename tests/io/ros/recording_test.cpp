@@ -92,6 +92,8 @@ std::vector<Container> containers() {
       mcap("unchunked", {"", 0, true, "cdr"}, "mcap"),
       mcap("unchunked_no_summary", {"", 0, false, "cdr"}, "mcap"),
       mcap("no_summary", {"zstd", 4, false, "cdr"}, "mcap (zstd)"),
+      mcap("no_schemas", {"zstd", 2, true, "cdr", "schemas"}, "mcap (zstd)"),
+      mcap("no_channels", {"", 2, true, "cdr", "channels"}, "mcap"),
       mcap("ros1", {"lz4", 1, true, "ros1"}, "mcap (lz4)"),
       rosbag2("sqlite3", "", "rosbag2 (sqlite3)"),
       rosbag2("sqlite3", "MESSAGE", "rosbag2 (sqlite3), messages in zstd"),

@@ -13,13 +13,15 @@ std::string record(std::uint8_t opcode, const std::string& content) {
   return Bytes().put(opcode).put(std::uint64_t{content.size()}).raw(content).text;
 }
 
-std::string schema_and_channel(std::size_t index, const std::pair<std::string, std::string>& topic,
-                               const McapShape& shape) {
+std::string schema_record(std::size_t index, const std::string& type, const McapShape& shape) {
   const auto id = static_cast<std::uint16_t>(index + 1);
   const std::string kind = shape.encoding == "ros1" ? "ros1msg" : "ros2msg";
-  const Bytes schema = Bytes().put(id).string(topic.second).string(kind).sequence("text");
-  const Bytes channel = Bytes().put(id).put(id).string(topic.first).string(shape.encoding).put(std::uint32_t{0});
-  return record(3, schema.text) + record(4, channel.text);
+  return record(3, Bytes().put(id).string(type).string(kind).sequence("text").text);
+}
+
+std::string channel_record(std::size_t index, const std::string& name, const McapShape& shape) {
+  const auto id = static_cast<std::uint16_t>(index + 1);
+  return record(4, Bytes().put(id).put(id).string(name).string(shape.encoding).put(std::uint32_t{0}).text);
 }
 
 std::string chunk_record(const std::string& content, const McapShape& shape) {
@@ -74,7 +76,13 @@ std::string lz4_of(std::string_view bytes) {
 std::string mcap_bytes(const Topics& topics, const std::vector<Recorded>& messages, const McapShape& shape) {
   const std::string magic("\x89MCAP0\r\n", 8);
   std::string about;
-  for (std::size_t i = 0; i < topics.size(); ++i) about += schema_and_channel(i, topics[i], shape);
+  std::string repeated;  // in the summary
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    const std::string schema = schema_record(i, topics[i].second, shape);
+    const std::string channel = channel_record(i, topics[i].first, shape);
+    about += schema + channel;
+    repeated += (shape.left_out.empty() ? schema : "") + (shape.left_out == "channels" ? "" : channel);
+  }
   std::string file = magic + record(1, Bytes().string(shape.encoding == "ros1" ? "ros1" : "ros2").string("test").text);
   if (shape.chunk_messages == 0) file += about;
   std::map<std::uint16_t, std::uint64_t> counts;
@@ -106,7 +114,7 @@ std::string mcap_bytes(const Topics& topics, const std::vector<Recorded>& messag
   if (waiting > 0) close_chunk();
   file += record(0x0F, Bytes().put(std::uint32_t{0}).text);
   const std::uint64_t summary = shape.summary ? file.size() : 0;
-  if (shape.summary) file += about + statistics_record(counts) + indices;
+  if (shape.summary) file += repeated + statistics_record(counts) + indices;
   return file + record(2, Bytes().put(summary).put(std::uint64_t{0}).put(std::uint32_t{0}).text) + magic;
 }
 

@@ -11,7 +11,7 @@ foreach(_header rosbag/bag.h pluginlib/class_loader.hpp class_loader/class_loade
   list(APPEND _needed RosbagStorage_${_name}_INCLUDE_DIR)
   list(APPEND _includes ${RosbagStorage_${_name}_INCLUDE_DIR})
 endforeach()
-foreach(_name rosbag_storage roscpp_serialization rostime cpp_common)
+foreach(_name rosbag_storage roscpp_serialization rostime cpp_common console_bridge)
   find_library(RosbagStorage_${_name}_LIBRARY ${_name})
   list(APPEND _needed RosbagStorage_${_name}_LIBRARY)
   list(APPEND _libraries ${RosbagStorage_${_name}_LIBRARY})

@@ -42,7 +42,8 @@ VelodyneModel make(std::string name, double unit_m, double firing_us, double las
   for (std::size_t i = 0; i < elevations_deg.size(); ++i) {
     VelodyneLaser laser;
     laser.elevation_rad = elevations_deg[i] * kRadians;
-    laser.fires_after_us = static_cast<double>(i / at_once) * laser_us;
+    const std::size_t turn = i / at_once;  // lasers of a turn fire together
+    laser.fires_after_us = static_cast<double>(turn) * laser_us;
     model.lasers.push_back(laser);
   }
   set_rings(model);

@@ -103,7 +103,7 @@ std::vector<Container> containers() {
       rosbag2("mcap", "FILE", "mcap, file in zstd"),
   };
 #ifdef RILO_HAS_ROSBAG
-  for (const std::string& compression : {"none", "bz2", "lz4"}) {
+  for (const std::string compression : {"none", "bz2", "lz4"}) {
     all.push_back({"bag " + compression,
                    [=](const TempDir& folder, const std::vector<Sweep>& sweeps) {
                      const auto messages = with_imu(sweeps, MessageEncoding::kRos1);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/file_bytes.hpp"
+#include "io/stamp_difference.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/pose_reader.hpp"
@@ -101,7 +102,7 @@ std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps) {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
     if (stamps[i] > stamps[i - 1]) {
-      gaps.push_back((static_cast<double>(stamps[i]) - static_cast<double>(stamps[i - 1])) / kNanoseconds);
+      gaps.push_back(static_cast<double>(stamp_difference(stamps[i], stamps[i - 1])) / kNanoseconds);
     }
   }
   if (gaps.empty()) return std::nullopt;

@@ -77,7 +77,7 @@ TEST(VelodyneTest, SixteenLasersFireTwiceABlock) {
   ASSERT_EQ(sweeps.size(), 3U);
   const Sweep& sweep = sweeps[1];
   ASSERT_EQ(sweep.points.size(), 360U * 32);
-  EXPECT_NEAR(azimuth_deg(sweep.points[0]), 180, 0.01);
+  EXPECT_NEAR(std::abs(azimuth_deg(sweep.points[0])), 180, 0.01);
   EXPECT_NEAR(azimuth_deg(sweep.points[16]), 179.5, 0.01);  // half way to the next block
   EXPECT_NEAR(sweep.times_s[16], 55.296e-6, 1e-8);
   EXPECT_NEAR(sweep.times_s[17] - sweep.times_s[16], 2.304e-6, 1e-8);

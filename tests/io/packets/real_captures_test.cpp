@@ -119,7 +119,7 @@ TEST_F(RealFiles, VelodyneCaptures) {
 
 TEST_F(RealFiles, OusterCaptures) {
   const auto low = open_scan_source(file("pcap/ouster/OS-0-128-U1_v2.3.0_1024x10.pcap"));
-  expect_turns(*low, 1, "Ouster OS-0-128-U1, RNG15_RFL8_NIR8", 0.1);
+  expect_turns(*low, 1, "Ouster OS-0-128, RNG15_RFL8_NIR8", 0.1);
   const auto dual = open_scan_source(file("pcap/ouster/OS-0-32-U1_v2.2.0_1024x10.pcap"));
   expect_turns(*dual, 1, "Ouster OS-0-32-U1, RNG19_RFL8_SIG16_NIR16_DUAL, the first of two returns", 0.1);
   SourceOptions options;

@@ -64,7 +64,7 @@ TEST(PointCloud2Test, OtherTypesAndUnknownFields) {
   message.row_step = 58;
   Bytes data;
   data.put(1.0).put(2.0).put(3.0).put(std::uint32_t{5}).put(std::uint8_t{200});
-  data.put(NAN).put(5.0).put(6.0).put(std::uint32_t{4'000'000'000}).put(std::uint8_t{1});
+  data.put(double{NAN}).put(5.0).put(6.0).put(std::uint32_t{4'000'000'000}).put(std::uint8_t{1});
   message.data = data.text;
   for (const auto encoding : kBoth) {
     const RawCloud cloud = decode(message, encoding);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "cloud/fixed_chunks.hpp"
 
 namespace rilo {
 
@@ -33,15 +36,17 @@ int quadrant(float x, float y) {
 /// Returns the sense in which the azimuth runs on from point to point, 1 or -1.
 float BeamIndex::find_tangents(const std::vector<Eigen::Vector3f>& points) {
   tangents_.resize(points.size());
-  Eigen::Vector2f last = Eigen::Vector2f::Zero();
-  std::ptrdiff_t forward = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f& p = points[i];
-    tangents_[i] = p.z() / std::sqrt(p.x() * p.x() + p.y() * p.y());
-    const float turned = last.x() * p.y() - last.y() * p.x();
-    forward += (turned > 0.0F ? 1 : 0) - (turned < 0.0F ? 1 : 0);
-    last = p.head<2>();
-  }
+  forward_.assign(chunk_count(points.size()), 0);
+  for_fixed_chunks(points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Eigen::Vector3f& p = points[i];
+      const Eigen::Vector3f& before = points[i > 0 ? i - 1 : 0];
+      tangents_[i] = p.z() / std::sqrt(p.x() * p.x() + p.y() * p.y());
+      const float turned = before.x() * p.y() - before.y() * p.x();
+      forward_[chunk] += (turned > 0.0F ? 1 : 0) - (turned < 0.0F ? 1 : 0);
+    }
+  });
+  const std::ptrdiff_t forward = std::accumulate(forward_.begin(), forward_.end(), std::ptrdiff_t{0});
   return forward >= 0 ? 1.0F : -1.0F;
 }
 

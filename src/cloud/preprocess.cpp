@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "cloud/fixed_chunks.hpp"
 #include "rilo/cloud/elevation.hpp"
 
 namespace rilo {
@@ -101,33 +103,59 @@ void Preprocessor::reset() {
   prepared_.scene_range_m = 0.0;
 }
 
+/// Where the valid ones of each chunk go; returns how many there are in all.
+template <typename Valid>
+std::size_t Preprocessor::count_by_chunk(std::size_t count, const Valid& valid) {
+  chunk_begins_.assign(chunk_count(count), 0);
+  for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    std::size_t kept = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      kept += valid(i) ? 1U : 0U;
+    }
+    chunk_begins_[chunk] = kept;
+  });
+  std::size_t total = 0;
+  for (std::size_t& begin : chunk_begins_) {
+    total += std::exchange(begin, total);
+  }
+  return total;
+}
+
 void Preprocessor::crop(const Sweep& sweep) {
   const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
   const auto min2 = static_cast<float>(config_.min_range_m * config_.min_range_m);
   const auto max2 = static_cast<float>(config_.max_range_m * config_.max_range_m);
   const bool turned = elevation_offset_rad_ != 0.0;
   const ElevationTurn turn(elevation_offset_rad_);
-  cropped_.points.clear();
-  cropped_.offsets_s.clear();
-  cropped_beams_.clear();
   if (beams_tracked_) {
     beam_index_.assign(sweep, beams_);
   }
-  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+  // A NaN or infinite coordinate makes the comparison false.
+  const auto valid = [&](std::size_t i) {
     const float range2 = sweep.points[i].squaredNorm();
-    // A NaN or infinite coordinate makes the comparison false.
-    if (!(range2 >= min2 && range2 <= max2) || (timed && !std::isfinite(sweep.times_s[i]))) {
-      continue;
+    return range2 >= min2 && range2 <= max2 && (!timed || std::isfinite(sweep.times_s[i]));
+  };
+  const std::size_t kept = count_by_chunk(sweep.points.size(), valid);
+  cropped_.points.resize(kept);
+  cropped_.offsets_s.resize(timed ? kept : 0);
+  cropped_beams_.resize(beams_tracked_ ? kept : 0);
+  for_fixed_chunks(sweep.points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    std::size_t to = chunk_begins_[chunk];
+    for (std::size_t i = first; i < last; ++i) {
+      if (!valid(i)) {
+        continue;
+      }
+      const Eigen::Vector3f p = turned ? turn(sweep.points[i]) : sweep.points[i];
+      cropped_.points[to] = beams_tracked_ ? beam_angles_.corrected(p, beams_[i]) : p;
+      if (beams_tracked_) {
+        cropped_beams_[to] = beams_[i];
+      }
+      if (timed) {
+        cropped_.offsets_s[to] = sweep.times_s[i];
+      }
+      ++to;
     }
-    const Eigen::Vector3f p = turned ? turn(sweep.points[i]) : sweep.points[i];
-    cropped_.points.push_back(beams_tracked_ ? beam_angles_.corrected(p, beams_[i]) : p);
-    if (beams_tracked_) {
-      cropped_beams_.push_back(beams_[i]);
-    }
-    if (timed) {
-      cropped_.offsets_s.push_back(sweep.times_s[i]);
-    }
-  }
+  });
 }
 
 void Preprocessor::normalise_times(const Sweep& sweep) {

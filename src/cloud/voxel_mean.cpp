@@ -1,73 +1,110 @@
 #include "rilo/cloud/voxel_mean.hpp"
 
-#include <bit>
+#include <algorithm>
+#include <utility>
 
+#include "cloud/fixed_chunks.hpp"
 #include "rilo/geometry/voxel_key.hpp"
 
 namespace rilo {
 
 namespace {
 constexpr std::uint64_t kSecondHalf = 1ULL << 63U;  // a bit that voxel_key leaves free
+constexpr std::size_t kFirstSlots = 1U << 12U;
+constexpr std::size_t kAhead = 16;  // the table's memory is asked for so many points before it is needed
+}  // namespace
+
+void VoxelMean::find_keys(const TimedCloud& in, double voxel_m) {
+  const bool timed = in.timed();
+  const double inverse = 1.0 / voxel_m;
+  keys_.resize(in.size());
+  for_fixed_chunks(in.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint64_t half = timed && in.offsets_s[i] > 0.0F ? kSecondHalf : 0U;
+      keys_[i] = voxel_key(voxel_of(in.points[i], inverse)) | half;
+    }
+  });
 }
 
-void VoxelMean::prepare(std::size_t count) {
-  const std::size_t wanted = std::bit_ceil(count * 2 + 16);
-  if (slots_.size() < wanted) {
-    slots_.assign(wanted, Slot{});
-    generation_ = 0;
-  }
-  if (++generation_ == 0) {  // after 2^32 calls the old marks would come back to life
-    slots_.assign(slots_.size(), Slot{});
+void VoxelMean::start() {
+  means_.clear();
+  if (slots_.empty() || ++generation_ == 0) {  // after 2^32 calls the old marks would come back to life
+    slots_.assign(std::max(kFirstSlots, slots_.size()), Slot{});
     generation_ = 1;
   }
 }
 
-std::uint32_t VoxelMean::number_of(std::uint64_t key, std::uint32_t next) {
+/// Number of the mean of the voxel `key`; that of the next one to come if the voxel is new.
+std::uint32_t VoxelMean::number_of(std::uint64_t key) {
   const std::uint64_t mask = slots_.size() - 1;
   std::uint64_t slot = mix_key(key) & mask;
-  while (slots_[slot].generation == generation_ && slots_[slot].key != key) {
+  while (slots_[slot].generation == generation_) {
+    if (slots_[slot].key == key) {
+      return slots_[slot].number;
+    }
     slot = (slot + 1) & mask;
   }
-  if (slots_[slot].generation != generation_) {
-    slots_[slot] = {key, generation_, next};
+  const auto next = static_cast<std::uint32_t>(means_.size());
+  slots_[slot] = {key, generation_, next};
+  if (means_.size() * 2 > slots_.size()) {
+    grow();
   }
-  return slots_[slot].number;
+  return next;
+}
+
+void VoxelMean::grow() {
+  const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(slots_.size() * 2));
+  const std::uint64_t mask = slots_.size() - 1;
+  for (const Slot& taken : old) {
+    if (taken.generation != generation_) {
+      continue;
+    }
+    std::uint64_t slot = mix_key(taken.key) & mask;
+    while (slots_[slot].generation == generation_) {
+      slot = (slot + 1) & mask;
+    }
+    slots_[slot] = taken;
+  }
 }
 
 void VoxelMean::average(const TimedCloud& in, double voxel_m, TimedCloud& out) {
-  prepare(in.size());
   const bool timed = in.timed();
-  const double inverse = 1.0 / voxel_m;
-  out.points.clear();
-  out.offsets_s.clear();
-  out.counts.clear();
-  sums_.clear();
+  find_keys(in, voxel_m);
+  start();
+  std::uint32_t number = 0;
   for (std::size_t i = 0; i < in.size(); ++i) {
+    if (i + kAhead < in.size()) {
+      __builtin_prefetch(&slots_[mix_key(keys_[i + kAhead]) & (slots_.size() - 1)]);
+    }
+    // Along a beam many points in a row share a voxel.
+    if (i == 0 || keys_[i] != keys_[i - 1]) {
+      number = number_of(keys_[i]);
+    }
     const Eigen::Vector3f& p = in.points[i];
     const float offset = timed ? in.offsets_s[i] : 0.0F;
     const float count = in.counts.empty() ? 1.0F : in.counts[i];
-    const std::uint64_t half = offset > 0.0F ? kSecondHalf : 0U;
-    const auto next = static_cast<std::uint32_t>(out.points.size());
-    const std::uint32_t number = number_of(voxel_key(voxel_of(p, inverse)) | half, next);
-    if (number == next) {
-      out.points.push_back(p);
-      if (timed) {
-        out.offsets_s.push_back(offset);
-      }
-      out.counts.push_back(count);
-      sums_.emplace_back(Eigen::Vector4f::Zero());
+    if (number == means_.size()) {
+      means_.push_back({p, offset, Eigen::Vector3f::Zero(), 0.0F, count});
       continue;
     }
-    sums_[number].head<3>() += count * (p - out.points[number]);
-    if (timed) {
-      sums_[number].w() += count * (offset - out.offsets_s[number]);
-    }
-    out.counts[number] += count;
+    Mean& mean = means_[number];
+    mean.sum += count * (p - mean.first);
+    mean.offset_sum_s += count * (offset - mean.first_offset_s);
+    mean.count += count;
   }
-  for (std::size_t n = 0; n < out.size(); ++n) {
-    out.points[n] += sums_[n].head<3>() / out.counts[n];
+  write(timed, out);
+}
+
+void VoxelMean::write(bool timed, TimedCloud& out) const {
+  out.points.resize(means_.size());
+  out.counts.resize(means_.size());
+  out.offsets_s.resize(timed ? means_.size() : 0);
+  for (std::size_t n = 0; n < means_.size(); ++n) {
+    const Mean& mean = means_[n];
+    out.points[n] = mean.first + mean.sum / mean.count;
+    out.counts[n] = mean.count;
     if (timed) {
-      out.offsets_s[n] += sums_[n].w() / out.counts[n];
+      out.offsets_s[n] = mean.first_offset_s + mean.offset_sum_s / mean.count;
     }
   }
 }

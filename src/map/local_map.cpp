@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/fixed_chunks.hpp"
 #include "rilo/cloud/elevation.hpp"
 
 namespace rilo {
@@ -47,16 +48,20 @@ void LocalMap::set_scene_range(double range_m) {
 
 void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar, const RigidLever& pose) {
   const Eigen::Matrix3f R = T_odom_lidar.linear().cast<float>();
-  for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector3d world = T_odom_lidar * p.cast<double>();
-    const Eigen::Vector3f lever = R * elevation_lever(p) + pose.at(world).cast<float>();
-    for (std::size_t level = finest_; level < grids_.size(); ++level) {
-      grids_[level].insert(world, lever);
+  world_.resize(points.size());
+  levers_.resize(points.size());
+  for_fixed_chunks(points.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      world_[i] = T_odom_lidar * points[i].cast<double>();
+      levers_[i] = R * elevation_lever(points[i]) + pose.at(world_[i]).cast<float>();
     }
-  }
-  for (PlaneGrid& grid : grids_) {
+  });
+  // The levels know nothing of one another.
+  for_each_index(grids_.size() - finest_, [&](std::size_t i) {
+    PlaneGrid& grid = grids_[finest_ + i];
+    grid.insert(world_, levers_);
     grid.refit();
-  }
+  });
 }
 
 void LocalMap::turn_elevation(double angle_rad, const RigidLever& sensor) {
@@ -72,8 +77,17 @@ void LocalMap::evict(const Eigen::Vector3d& centre) {
 }
 
 bool LocalMap::find(const Eigen::Vector3d& p, MapPlane& plane) const {
+  PlaneSpot spot;
+  if (!locate(p, spot)) {
+    return false;
+  }
+  plane = spot.grid->plane_at(spot);
+  return true;
+}
+
+bool LocalMap::locate(const Eigen::Vector3d& p, PlaneSpot& spot) const {
   for (std::size_t level = finest_; level < grids_.size(); ++level) {
-    if (grids_[level].find(p, plane)) {
+    if (grids_[level].locate(p, spot)) {
       return true;
     }
   }

@@ -1,7 +1,9 @@
 #include "rilo/map/plane_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "rilo/geometry/symmetric_eigen.hpp"
 
@@ -10,6 +12,7 @@ namespace rilo {
 namespace {
 constexpr std::size_t kFirstSlots = 1U << 12U;
 constexpr double kFaceShare = 0.2;  // a face is near within this share of the voxel
+constexpr std::size_t kBatch = 16;  // so many accesses to memory are under way together
 }  // namespace
 
 PlaneGrid::PlaneGrid(double voxel_m, const PlaneCriteria& criteria)
@@ -20,13 +23,35 @@ Eigen::Vector3d PlaneGrid::centre_of(const VoxelIndex& index) const {
 }
 
 void PlaneGrid::insert(const Eigen::Vector3d& p, const Eigen::Vector3f& elevation_lever) {
-  const VoxelIndex index = voxel_of(p, inverse_);
-  const std::uint32_t id = find_or_add(index);
+  add(find_or_add(voxel_key(voxel_of(p, inverse_))), p, elevation_lever);
+}
+
+void PlaneGrid::insert(const std::vector<Eigen::Vector3d>& points,
+                       const std::vector<Eigen::Vector3f>& elevation_levers) {
+  std::array<std::uint64_t, kBatch> keys{};
+  std::array<std::uint32_t, kBatch> ids{};
+  for (std::size_t first = 0; first < points.size(); first += kBatch) {
+    const std::size_t n = std::min(kBatch, points.size() - first);
+    for (std::size_t i = 0; i < n; ++i) {
+      keys[i] = voxel_key(voxel_of(points[first + i], inverse_));
+      __builtin_prefetch(&slots_[mix_key(keys[i]) & (slots_.size() - 1)]);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      ids[i] = find_or_add(keys[i]);
+      __builtin_prefetch(&pool_[ids[i]]);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      add(ids[i], points[first + i], elevation_levers[first + i]);
+    }
+  }
+}
+
+void PlaneGrid::add(std::uint32_t id, const Eigen::Vector3d& p, const Eigen::Vector3f& elevation_lever) {
   Voxel& voxel = pool_[id];
   if (voxel.count >= criteria_.max_points) {
     return;
   }
-  const Eigen::Vector3f d = (p - centre_of(index)).cast<float>();
+  const Eigen::Vector3f d = (p - centre_of(voxel_of_key(voxel.key))).cast<float>();
   voxel.sum += d;
   voxel.lever_sum += elevation_lever;
   voxel.squares[0] += d.x() * d.x();
@@ -44,13 +69,14 @@ void PlaneGrid::insert(const Eigen::Vector3d& p, const Eigen::Vector3f& elevatio
 }
 
 void PlaneGrid::turn_elevation(double angle_rad, const RigidLever& sensor) {
-  for (Voxel& voxel : pool_) {
+  for (std::size_t id = 0; id < pool_.size(); ++id) {
+    Voxel& voxel = pool_[id];
     if (voxel.count == 0) {
       continue;
     }
     // Every point moves by the mean: what differs between them is of second order.
     const auto n = static_cast<float>(voxel.count);
-    const Eigen::Vector3d centroid = centre_of(voxel.index) + (voxel.sum / n).cast<double>();
+    const Eigen::Vector3d centroid = centre_of(voxel_of_key(voxel.key)) + (voxel.sum / n).cast<double>();
     const Eigen::Vector3f own = sensor.at(centroid).cast<float>();
     const Eigen::Vector3f shift = static_cast<float>(angle_rad) * (voxel.lever_sum / n - own);
     const Eigen::Matrix3f moved = voxel.sum * shift.transpose();
@@ -62,7 +88,7 @@ void PlaneGrid::turn_elevation(double angle_rad, const RigidLever& sensor) {
     voxel.squares[4] += change(1, 2);
     voxel.squares[5] += change(2, 2);
     voxel.sum += n * shift;
-    voxel.mean += shift;
+    planes_[id].mean += shift;
   }
 }
 
@@ -71,14 +97,15 @@ void PlaneGrid::refit() {
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   for (const std::uint32_t id : touched_) {
     // An eviction in between may have freed the place, and an insertion taken it anew.
-    if (!pool_[id].free && pool_[id].count >= criteria_.min_points) {
-      fit(pool_[id]);
+    if (pool_[id].count >= criteria_.min_points) {
+      fit(id);
     }
   }
   touched_.clear();
 }
 
-void PlaneGrid::fit(Voxel& voxel) const {
+void PlaneGrid::fit(std::uint32_t id) {
+  Voxel& voxel = pool_[id];
   voxel.fitted_count = voxel.count;
   const double n = voxel.count;
   const Eigen::Vector3d mean = voxel.sum.cast<double>() / n;
@@ -90,15 +117,23 @@ void PlaneGrid::fit(Voxel& voxel) const {
   const double smallest = std::max(eigen.values[0], 0.0);
   const double middle = eigen.values[1];
   const double extent = criteria_.min_extent_m;
+  planes_[id] = {mean.cast<float>(), eigen.vectors.col(0).cast<float>(), static_cast<float>(std::sqrt(smallest))};
   const bool planar = middle > extent * extent && smallest < criteria_.max_planarity * middle;
-  voxel.mean = mean.cast<float>();
-  voxel.normal = eigen.vectors.col(0).cast<float>();
-  voxel.thickness = planar ? static_cast<float>(std::sqrt(smallest)) : -1.0F;
+  slots_[slot_of(voxel.key)].planar = planar ? 1U : 0U;
 }
 
 bool PlaneGrid::find(const Eigen::Vector3d& p, MapPlane& plane) const {
+  PlaneSpot spot;
+  if (!locate(p, spot)) {
+    return false;
+  }
+  plane = plane_at(spot);
+  return true;
+}
+
+bool PlaneGrid::locate(const Eigen::Vector3d& p, PlaneSpot& spot) const {
   const VoxelIndex index = voxel_of(p, inverse_);
-  if (plane_of(index, plane)) {
+  if (plane_in(index, spot)) {
     return true;
   }
   const Eigen::Vector3d offset = (p - centre_of(index)) * inverse_;  // −½ … ½
@@ -109,57 +144,53 @@ bool PlaneGrid::find(const Eigen::Vector3d& p, MapPlane& plane) const {
   const int step = offset[axis] > 0.0 ? 1 : -1;
   const VoxelIndex behind{index.x + (axis == 0 ? step : 0), index.y + (axis == 1 ? step : 0),
                           index.z + (axis == 2 ? step : 0)};
-  return plane_of(behind, plane);
+  return plane_in(behind, spot);
+}
+
+MapPlane PlaneGrid::plane_at(const PlaneSpot& spot) const {
+  const Plane& plane = planes_[spot.voxel];
+  return {centre_of(spot.index) + plane.mean.cast<double>(), plane.normal.cast<double>(), plane.thickness};
 }
 
 bool PlaneGrid::occupied(const Eigen::Vector3d& p) const {
-  return find_voxel(voxel_key(voxel_of(p, inverse_))) != kNone;
+  return slots_[slot_of(voxel_key(voxel_of(p, inverse_)))].voxel != kNone;
 }
 
-bool PlaneGrid::plane_of(const VoxelIndex& index, MapPlane& plane) const {
-  const std::uint32_t id = find_voxel(voxel_key(index));
-  if (id == kNone || pool_[id].thickness < 0.0F) {
+bool PlaneGrid::plane_in(const VoxelIndex& index, PlaneSpot& spot) const {
+  const Slot& slot = slots_[slot_of(voxel_key(index))];
+  if (slot.voxel == kNone || slot.planar == 0) {
     return false;
   }
-  const Voxel& voxel = pool_[id];
-  plane.point = centre_of(index) + voxel.mean.cast<double>();
-  plane.normal = voxel.normal.cast<double>();
-  plane.thickness_m = voxel.thickness;
-  plane.elevation_lever = voxel.lever_sum / static_cast<float>(voxel.count);
+  __builtin_prefetch(&planes_[slot.voxel]);
+  spot = {this, slot.voxel, index};
   return true;
 }
 
-std::uint32_t PlaneGrid::find_voxel(std::uint64_t key) const {
-  const std::size_t mask = slots_.size() - 1;
-  for (std::size_t slot = mix_key(key) & mask;; slot = (slot + 1) & mask) {
-    if (slots_[slot].voxel == kNone || slots_[slot].key == key) {
-      return slots_[slot].voxel;
-    }
-  }
-}
-
-std::uint32_t PlaneGrid::find_or_add(const VoxelIndex& index) {
-  const std::uint64_t key = voxel_key(index);
+/// The slot that holds `key`, or the free one that ends its probe sequence.
+std::size_t PlaneGrid::slot_of(std::uint64_t key) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = mix_key(key) & mask;
-  while (slots_[slot].voxel != kNone) {
-    if (slots_[slot].key == key) {
-      return slots_[slot].voxel;
-    }
+  while (slots_[slot].voxel != kNone && slots_[slot].key != key) {
     slot = (slot + 1) & mask;
+  }
+  return slot;
+}
+
+std::uint32_t PlaneGrid::find_or_add(std::uint64_t key) {
+  Slot& slot = slots_[slot_of(key)];
+  if (slot.voxel != kNone) {
+    return slot.voxel;
   }
   std::uint32_t id = static_cast<std::uint32_t>(pool_.size());
   if (free_.empty()) {
     pool_.emplace_back();
+    planes_.emplace_back();
   } else {
     id = free_.back();
     free_.pop_back();
-    pool_[id] = Voxel{};
   }
-  pool_[id].free = false;
   pool_[id].key = key;
-  pool_[id].index = index;
-  slots_[slot] = {key, id};
+  slot = {key, id, 0};
   if (++used_ * 2 > slots_.size()) {
     grow();
   }
@@ -167,26 +198,17 @@ std::uint32_t PlaneGrid::find_or_add(const VoxelIndex& index) {
 }
 
 void PlaneGrid::grow() {
-  slots_.assign(slots_.size() * 2, Slot{});
-  const std::size_t mask = slots_.size() - 1;
-  for (std::uint32_t id = 0; id < pool_.size(); ++id) {
-    if (pool_[id].free) {
-      continue;
+  const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(slots_.size() * 2));
+  for (const Slot& slot : old) {
+    if (slot.voxel != kNone) {
+      slots_[slot_of(slot.key)] = slot;
     }
-    std::size_t slot = mix_key(pool_[id].key) & mask;
-    while (slots_[slot].voxel != kNone) {
-      slot = (slot + 1) & mask;
-    }
-    slots_[slot] = {pool_[id].key, id};
   }
 }
 
 void PlaneGrid::erase(std::uint32_t voxel) {
   const std::size_t mask = slots_.size() - 1;
-  std::size_t hole = mix_key(pool_[voxel].key) & mask;
-  while (slots_[hole].voxel != voxel) {
-    hole = (hole + 1) & mask;
-  }
+  std::size_t hole = slot_of(pool_[voxel].key);
   // Backward shift: later entries of the probe sequence move up, so that no tombstones slow the look-ups down.
   for (std::size_t next = (hole + 1) & mask; slots_[next].voxel != kNone; next = (next + 1) & mask) {
     const std::size_t home = mix_key(slots_[next].key) & mask;
@@ -207,7 +229,7 @@ void PlaneGrid::evict(const Eigen::Vector3d& centre, double radius_m) {
   for (std::size_t i = 0; i < slice && !pool_.empty(); ++i) {
     eviction_cursor_ = (eviction_cursor_ + 1) % pool_.size();
     const Voxel& voxel = pool_[eviction_cursor_];
-    if (voxel.count > 0 && (centre_of(voxel.index) - centre).squaredNorm() > radius2) {
+    if (voxel.count > 0 && (centre_of(voxel_of_key(voxel.key)) - centre).squaredNorm() > radius2) {
       erase(static_cast<std::uint32_t>(eviction_cursor_));
     }
   }
@@ -216,7 +238,7 @@ void PlaneGrid::evict(const Eigen::Vector3d& centre, double radius_m) {
 void PlaneGrid::centroids(std::vector<Eigen::Vector3f>& out) const {
   for (const Voxel& voxel : pool_) {
     if (voxel.count > 0) {
-      out.push_back((centre_of(voxel.index) + voxel.sum.cast<double>() / voxel.count).cast<float>());
+      out.push_back((centre_of(voxel_of_key(voxel.key)) + voxel.sum.cast<double>() / voxel.count).cast<float>());
     }
   }
 }

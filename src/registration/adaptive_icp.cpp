@@ -64,28 +64,26 @@ NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const M
   std::vector<NormalEquations> partial(chunk_count(count));
   for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
     NormalEquations sum;
-    MapPlane plane;
-    for (std::size_t k = first; k < last; ++k) {
+    const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
       const std::size_t i = k * stride;
       const Eigen::Vector3f p = timed ? motion.compensate(source.points[i], source.offsets_s[i]) : source.points[i];
-      const Eigen::Vector3d lever = R * p.cast<double>();
-      const Eigen::Vector3d world = lever + t;
-      if (!map.find(world, plane)) {
-        continue;
-      }
+      return R * p.cast<double>() + t;
+    };
+    map.visit(first, last, point_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
+      const MapPlane plane = spot.grid->plane_at(spot);
       const double e = plane.normal.dot(world - plane.point);  // e_k = (p_k − q_k)·n_k
       if (std::abs(e) > gate) {
-        continue;
+        return;
       }
       const double beta = config.adaptive ? sigma2 / (sigma2 + e * e) : 1.0;  // β_k
       Vector6d J;                                                             // [(p × n)ᵀ nᵀ]
-      J << lever.cross(plane.normal), plane.normal;
+      J << (world - t).cross(plane.normal), plane.normal;
       if (refine) {
-        sum.add(J, e, beta, static_cast<double>(source.offsets_s[i]));
+        sum.add(J, e, beta, static_cast<double>(source.offsets_s[k * stride]));
       } else {
         sum.add(J, e, beta);
       }
-    }
+    });
     partial[chunk] = sum;
   });
   NormalEquations total;

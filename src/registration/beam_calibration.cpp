@@ -38,22 +38,19 @@ void BeamCalibration::observe(const BeamSample& sample, const LocalMap& map, con
   const double sigma2 = sigma_th_m * sigma_th_m;
   const double gate = config.gate * sigma_th_m;
   for_fixed_chunks(points_.size(), [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
-    MapPlane plane;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Vector3d world = R * points_[i].cast<double>() + t;
-      if (sample.beams[i] >= kBeams || !map.find(world, plane)) {
-        continue;
-      }
+    const auto point_at = [&](std::size_t i) -> Eigen::Vector3d { return R * points_[i].cast<double>() + t; };
+    map.visit(begin, end, point_at, [&](std::size_t i, const Eigen::Vector3d& world, const PlaneSpot& spot) {
+      const MapPlane plane = spot.grid->plane_at(spot);
       const double e = plane.normal.dot(world - plane.point);
-      if (std::abs(e) > gate) {
-        continue;
+      if (sample.beams[i] >= kBeams || std::abs(e) > gate) {
+        return;
       }
       const Eigen::Vector3d normal = R.transpose() * plane.normal;
       observations_[i] = {{normal.dot(elevation_lever(points_[i]).cast<double>()),
                            normal.dot(azimuth_lever(points_[i]).cast<double>())},
                           e,
                           sigma2 / (sigma2 + e * e)};
-    }
+    });
   });
 }
 

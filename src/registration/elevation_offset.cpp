@@ -56,26 +56,22 @@ ElevationInformation elevation_information(const TimedCloud& source, const Local
   std::vector<Sums> partial(chunk_count(count));
   for_fixed_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     Sums& sum = partial[chunk];
-    MapPlane plane;
-    for (std::size_t k = begin; k < end; ++k) {
+    const auto point_at = [&](std::size_t k) -> Eigen::Vector3d { return R * points[k * stride].cast<double>() + t; };
+    map.visit(begin, end, point_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
       const std::size_t i = k * stride;
-      const Eigen::Vector3d lever = R * points[i].cast<double>();
-      const Eigen::Vector3d world = lever + t;
-      if (!map.find(world, plane)) {
-        continue;
-      }
+      const MapPlane plane = spot.grid->plane_at(spot);
       const double e = plane.normal.dot(world - plane.point);
       if (std::abs(e) > gate) {
-        continue;
+        return;
       }
       const double w = sigma2 / (sigma2 + e * e);
       // Relative to a sensor that goes on moving with δ as the last pose did; the whole plane moves, so that its own
       // point counts.
-      const Eigen::Vector3d moves =
-          R * elevation_lever(points[i]).cast<double>() + last.at(plane.point) - plane.elevation_lever.cast<double>();
+      const Eigen::Vector3d moves = R * elevation_lever(points[i]).cast<double>() + last.at(plane.point) -
+                                    spot.grid->elevation_lever_at(spot).cast<double>();
       const double c = plane.normal.dot(moves);  // ∂e/∂δ
       Vector6d J;
-      J << lever.cross(plane.normal), plane.normal;
+      J << (world - t).cross(plane.normal), plane.normal;
       sum.mixed.head<6>() += w * c * J;
       if (source.timed() && config.refine_motion) {
         sum.mixed.tail<6>() += (w * c * static_cast<double>(source.offsets_s[i])) * J;
@@ -84,7 +80,7 @@ ElevationInformation elevation_information(const TimedCloud& source, const Local
       sum.gradient -= w * c * e;
       sum.weight += w;
       sum.squared_error += w * e * e;
-    }
+    });
   });
   Sums total;
   for (const Sums& sum : partial) {

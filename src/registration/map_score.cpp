@@ -56,14 +56,12 @@ double map_score(const std::vector<Eigen::Vector3f>& points, const LocalMap& map
   }
   const double scale = -0.5 / (sigma_m * sigma_m);
   double sum = 0.0;
-  MapPlane plane;
-  for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector3d world = T_odom_lidar * p.cast<double>();
-    if (map.find(world, plane)) {
-      const double e = plane.normal.dot(world - plane.point);
-      sum += std::exp(scale * e * e);
-    }
-  }
+  const auto point_at = [&](std::size_t k) -> Eigen::Vector3d { return T_odom_lidar * points[k].cast<double>(); };
+  map.visit(0, points.size(), point_at, [&](std::size_t, const Eigen::Vector3d& world, const PlaneSpot& spot) {
+    const MapPlane plane = spot.grid->plane_at(spot);
+    const double e = plane.normal.dot(world - plane.point);
+    sum += std::exp(scale * e * e);
+  });
   return sum / static_cast<double>(points.size());
 }
 

@@ -74,7 +74,13 @@ TEST(Elevation, TheMapMovesAsIfItHadBeenMadeOfTurnedPoints) {
   // Seen from a sensor that moves along, nothing does.
   LocalMap along(map_config());
   along.insert(points, T, {});
-  const RigidLever lever{centre, Eigen::Vector3d::Zero(), plane.elevation_lever.cast<double>()};
+  Eigen::Vector3f elevation_lever = Eigen::Vector3f::Zero();
+  along.visit(
+      0, 1, [&](std::size_t) { return centre; },
+      [&](std::size_t, const Eigen::Vector3d&, const PlaneSpot& spot) {
+        elevation_lever = spot.grid->elevation_lever_at(spot);
+      });
+  const RigidLever lever{centre, Eigen::Vector3d::Zero(), elevation_lever.cast<double>()};
   along.turn_elevation(angle, lever);
   ASSERT_TRUE(along.find(centre, plane));
   EXPECT_LT((plane.point - centre).norm(), 0.1);

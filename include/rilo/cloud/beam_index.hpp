@@ -35,6 +35,7 @@ class BeamIndex {
 
   std::vector<Turn> turns_;
   std::vector<float> tangents_;
+  std::vector<std::ptrdiff_t> forward_;  // of each chunk: steps in the sense of the azimuth less those against it
 };
 
 }  // namespace rilo

@@ -45,6 +45,8 @@ class Preprocessor {
 
  private:
   void crop(const Sweep& sweep);
+  template <typename Valid>
+  std::size_t count_by_chunk(std::size_t count, const Valid& valid);
   void sample_beams();
   void normalise_times(const Sweep& sweep);
   void downsample(double source_voxel_m);
@@ -54,6 +56,7 @@ class Preprocessor {
   PreprocessConfig config_;
   TimedCloud cropped_;
   PreparedSweep prepared_;
+  std::vector<std::size_t> chunk_begins_;
   std::vector<float> ranges_;
   VoxelMean map_mean_;
   VoxelMean source_mean_;

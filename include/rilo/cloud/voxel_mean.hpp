@@ -24,15 +24,26 @@ class VoxelMean {
   struct Slot {
     std::uint64_t key = 0;
     std::uint32_t generation = 0;  // the slot is taken when this equals generation_
-    std::uint32_t number = 0;      // of the voxel's point in the result
+    std::uint32_t number = 0;      // of the voxel's mean
   };
-  void prepare(std::size_t count);
-  std::uint32_t number_of(std::uint64_t key, std::uint32_t next);
+  // Sums relative to a voxel's first point: exact in single precision however many there are.
+  struct Mean {
+    Eigen::Vector3f first;
+    float first_offset_s;
+    Eigen::Vector3f sum;
+    float offset_sum_s;
+    float count;
+  };
+  void find_keys(const TimedCloud& in, double voxel_m);
+  void start();
+  std::uint32_t number_of(std::uint64_t key);
+  void grow();
+  void write(bool timed, TimedCloud& out) const;
 
+  std::vector<std::uint64_t> keys_;  // of the points
   std::vector<Slot> slots_;
   std::uint32_t generation_ = 0;
-  // Sums relative to a voxel's first point: exact in single precision however many there are. x, y, z, offset.
-  std::vector<Eigen::Vector4f> sums_;
+  std::vector<Mean> means_;
 };
 
 }  // namespace rilo

@@ -33,6 +33,15 @@ inline std::uint64_t voxel_key(const VoxelIndex& v) {
   return pack(v.x) | (pack(v.y) << 21U) | (pack(v.z) << 42U);
 }
 
+/// Voxel of a key of voxel_key().
+inline VoxelIndex voxel_of_key(std::uint64_t key) {
+  // Up against the sign bit, then back: the arithmetic shift brings the sign along.
+  const auto unpack = [key](unsigned int shift) {
+    return static_cast<int>(static_cast<std::int64_t>(key << (43U - shift)) >> 43);
+  };
+  return {unpack(0U), unpack(21U), unpack(42U)};
+}
+
 /// Mixes a key so that neighbouring voxels spread over the table (multiplicative hashing, upper bits are the good
 /// ones).
 inline std::uint64_t mix_key(std::uint64_t key) {

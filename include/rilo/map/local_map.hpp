@@ -1,6 +1,8 @@
 // The local map: surface elements around the sensor at several voxel sizes.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,6 +36,32 @@ class LocalMap {
   /// Surface element at `p` (odometry frame): the finest level with a plane there. False when there is none.
   bool find(const Eigen::Vector3d& p, MapPlane& plane) const;
 
+  /// find() for many points: calls use(k, p, spot) with p = point_at(k) (odometry frame) for those of k = first …
+  /// last − 1, in order, where there is a surface element. A few look-ups are under way at any time: one after the
+  /// other they would wait for the memory most of the time.
+  template <typename PointAt, typename Use>
+  void visit(std::size_t first, std::size_t last, const PointAt& point_at, const Use& use) const {
+    constexpr std::size_t kBatch = 16;
+    std::array<Eigen::Vector3d, kBatch> points;
+    std::array<PlaneSpot, kBatch> spots;
+    for (std::size_t begin = first; begin < last; begin += kBatch) {
+      const std::size_t n = std::min(kBatch, last - begin);
+      for (std::size_t i = 0; i < n; ++i) {
+        points[i] = point_at(begin + i);
+        grids_[finest_].prefetch(points[i]);
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        spots[i] = PlaneSpot{};
+        locate(points[i], spots[i]);
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        if (spots[i].grid != nullptr) {
+          use(begin + i, points[i], spots[i]);
+        }
+      }
+    }
+  }
+
   bool empty() const { return grids_.back().size() == 0; }
   /// Voxels of all levels.
   std::size_t size() const;
@@ -44,9 +72,14 @@ class LocalMap {
   void clear();
 
  private:
+  bool locate(const Eigen::Vector3d& p, PlaneSpot& spot) const;
+
   LocalMapConfig config_;
   std::vector<PlaneGrid> grids_;  // finest first
   std::size_t finest_ = 0;
+  // Of the points being inserted: in the odometry frame, and how they move with the elevation angles.
+  std::vector<Eigen::Vector3d> world_;
+  std::vector<Eigen::Vector3f> levers_;
 };
 
 }  // namespace rilo

@@ -61,7 +61,8 @@ std::optional<RawTimes> column_fractions(std::size_t points, std::size_t column_
   RawTimes times{"order of the points", ScalarType::kFloat32, {}, {}};
   times.floats.resize(points);
   for (std::size_t i = 0; i < points; ++i) {
-    times.floats[i] = static_cast<double>(i / column_points) / static_cast<double>(kColumns);
+    const std::size_t column = i / column_points;
+    times.floats[i] = static_cast<double>(column) / static_cast<double>(kColumns);
   }
   return times;
 }

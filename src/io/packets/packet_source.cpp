@@ -50,7 +50,7 @@ Contents look_into(const fs::path& file) {
 fs::path find_metadata(const fs::path& file, const SourceOptions& options, const Contents& contents) {
   if (!options.sensor_file.empty()) return options.sensor_file;
   std::error_code error;
-  const fs::path twin = fs::path(file).replace_extension(".json");
+  fs::path twin = fs::path(file).replace_extension(".json");
   if (fs::exists(twin, error)) return twin;
   std::vector<fs::path> found;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");

@@ -49,11 +49,11 @@ class VelodyneDecoder final : public PacketDecoder {
       const std::string_view bytes = payload.substr(block * kBlockBytes, kBlockBytes);
       const std::string_view flag = bytes.substr(0, 2);
       if (flag != "\xFF\xEE" && flag != "\xFF\xDD") continue;
-      const double firing = static_cast<double>(block / group * model_.firings_a_block);
+      const std::size_t firings_before = block / group * model_.firings_a_block;
       const int azimuth = get16(bytes, 2) % kTurn;
       find_rate(payload, block, group, azimuth);
       look_for_the_rear(azimuth, done);
-      add_block(bytes, flag == "\xFF\xDD", azimuth, stamp_ns, firing);
+      add_block(bytes, flag == "\xFF\xDD", azimuth, stamp_ns, static_cast<double>(firings_before));
     }
   }
 

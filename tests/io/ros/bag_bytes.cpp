@@ -36,6 +36,7 @@ struct Serializer<rilo::test::PackedMessage> {
     std::memcpy(stream.advance(static_cast<std::uint32_t>(message.bytes.size())), message.bytes.data(),
                 message.bytes.size());
   }
+  // NOLINTNEXTLINE(readability-identifier-naming): the name that roscpp calls
   static std::uint32_t serializedLength(const rilo::test::PackedMessage& message) {
     return static_cast<std::uint32_t>(message.bytes.size());
   }

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,8 +1,9 @@
 // An Ouster's metadata up to the first zero byte, then its packets.
+#include "io/packets/ouster.hpp"
+
 #include <deque>
 
 #include "harness.hpp"
-#include "io/packets/ouster.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto [text, packets] = rilo::fuzz::split(rilo::fuzz::bytes_of(data, size));

@@ -1,6 +1,7 @@
 // PointCloud2 in both encodings, and the decision what its times mean. The first byte chooses.
-#include "harness.hpp"
 #include "rilo/io/point_cloud2.hpp"
+
+#include "harness.hpp"
 #include "rilo/io/point_times.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -19,7 +19,7 @@ tests=(librosbag-storage-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-
 lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
 bench=(valgrind)
-fuzz=(clang)
+fuzz=(clang libclang-rt-14-dev)
 
 minimal=false
 with_lint=false

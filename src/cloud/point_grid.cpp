@@ -9,6 +9,8 @@
 namespace rilo {
 
 namespace {
+constexpr float kSlack2 = 1e-6F;  // m²: the bound of a cell is rounded, a millimetre is on the safe side
+
 bool closer(const Neighbour& a, const Neighbour& b) {
   return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.index < b.index);
 }
@@ -53,13 +55,30 @@ const PointGrid::Cell* PointGrid::find_cell(const VoxelIndex& index) const {
 }
 
 template <typename Visit>
-void PointGrid::visit_ring(const Eigen::Vector3f& p, const VoxelIndex& centre, int ring, const Visit& visit) const {
+void PointGrid::visit_ring(const Eigen::Vector3f& p, const VoxelIndex& centre, int ring, const float& limit2,
+                           const Visit& visit) const {
+  const auto cell_m = static_cast<float>(cell_m_);
+  const Eigen::Vector3f corner(static_cast<float>(centre.x), static_cast<float>(centre.y),
+                               static_cast<float>(centre.z));
+  const Eigen::Vector3f inside = p - cell_m * corner;  // 0 … cell_m
+  // Squared distance along an axis to the nearest face of the cells `step` away.
+  const auto face2 = [&](int step, float at) {
+    const float d =
+        step == 0 ? 0.0F
+                  : (step > 0 ? static_cast<float>(step) * cell_m - at : at - static_cast<float>(step + 1) * cell_m);
+    return d * d;
+  };
   for (int dz = -ring; dz <= ring; ++dz) {
+    const float z2 = face2(dz, inside.z());
     for (int dy = -ring; dy <= ring; ++dy) {
+      const float yz2 = z2 + face2(dy, inside.y());
       const bool face = std::abs(dz) == ring || std::abs(dy) == ring;
       const int step =
           face || ring == 0 ? 1 : 2 * ring;  // inside the shell only the two end cells of a row belong to it
       for (int dx = -ring; dx <= ring; dx += step) {
+        if (yz2 + face2(dx, inside.x()) > limit2 + kSlack2) {
+          continue;
+        }
         const Cell* cell = find_cell({centre.x + dx, centre.y + dy, centre.z + dz});
         if (cell == nullptr) {
           continue;
@@ -81,7 +100,7 @@ bool PointGrid::nearest(const Eigen::Vector3f& p, double max_distance_m, Neighbo
   Neighbour best{0xFFFFFFFFU, limit2};
   const int rings = static_cast<int>(std::ceil(max_distance_m * inverse_));
   for (int ring = 0; ring <= rings; ++ring) {
-    visit_ring(p, centre, ring, [&](std::uint32_t index, float distance2) {
+    visit_ring(p, centre, ring, best.distance2, [&](std::uint32_t index, float distance2) {
       const Neighbour candidate{index, distance2};
       if (closer(candidate, best)) {
         best = candidate;
@@ -106,8 +125,9 @@ void PointGrid::nearest(const Eigen::Vector3f& p, std::size_t k, double max_dist
   const VoxelIndex centre = voxel_of(p, inverse_);
   const auto limit2 = static_cast<float>(max_distance_m * max_distance_m);
   const int rings = static_cast<int>(std::ceil(max_distance_m * inverse_));
+  float worst2 = limit2;
   for (int ring = 0; ring <= rings; ++ring) {
-    visit_ring(p, centre, ring, [&](std::uint32_t index, float distance2) {
+    visit_ring(p, centre, ring, worst2, [&](std::uint32_t index, float distance2) {
       const Neighbour candidate{index, distance2};
       if (distance2 > limit2 || (found.size() == k && !closer(candidate, found.back()))) {
         return;
@@ -115,6 +135,9 @@ void PointGrid::nearest(const Eigen::Vector3f& p, std::size_t k, double max_dist
       found.insert(std::upper_bound(found.begin(), found.end(), candidate, closer), candidate);
       if (found.size() > k) {
         found.pop_back();
+      }
+      if (found.size() == k) {
+        worst2 = found.back().distance2;
       }
     });
     const double reach = ring * cell_m_;
@@ -133,7 +156,8 @@ std::size_t PointGrid::count_within(const Eigen::Vector3f& p, double radius_m) c
   const int rings = static_cast<int>(std::ceil(radius_m * inverse_));
   std::size_t count = 0;
   for (int ring = 0; ring <= rings; ++ring) {
-    visit_ring(p, centre, ring, [&](std::uint32_t, float distance2) { count += distance2 <= radius2 ? 1 : 0; });
+    visit_ring(p, centre, ring, radius2,
+               [&](std::uint32_t, float distance2) { count += distance2 <= radius2 ? 1 : 0; });
   }
   return count;
 }

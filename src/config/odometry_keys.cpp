@@ -86,6 +86,8 @@ void add_icp(ConfigKeys& keys, AdaptiveIcpConfig& c) {
   keys.real("gate", c.gate, 0.1, 100, "", "residuals beyond gate * sigma_th are no correspondences");
   keys.integer("max_iterations", c.max_iterations, 1, 1000, "", "iterations of one registration");
   keys.integer("coarse_stride", c.coarse_stride, 1, 100, "", "every n-th point until it converges, then all points");
+  keys.real("rematch_m", c.rematch_m, 0, 10, "m",
+            "planes are looked up again once the sweep has moved so far in the iterations; 0: in every one");
   keys.real("damping", c.damping, 0, 1000, "", "lambda, relative to the largest diagonal element");
   keys.real("rotation_epsilon_rad", c.rotation_epsilon_rad, 0, 1, "rad", "converged when an update turns less ...");
   keys.real("translation_epsilon_m", c.translation_epsilon_m, 0, 1, "m", "... and moves less");

@@ -61,6 +61,7 @@ void validate(const OdometryConfig& c) {
       {"threshold.forgetting", c.threshold.forgetting, 0, 1},
       {"icp.max_iterations", static_cast<double>(c.icp.max_iterations), 1, 1000},
       {"icp.coarse_stride", static_cast<double>(c.icp.coarse_stride), 1, 100},
+      {"icp.rematch_m", c.icp.rematch_m, 0, 10},
       {"icp.noise_m", c.icp.noise_m, 1e-4, 10},
       {"icp.independent_share", c.icp.independent_share, 1e-6, 1},
       {"elevation.significance", c.elevation.significance, 0, 1e6},

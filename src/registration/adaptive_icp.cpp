@@ -5,9 +5,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "cloud/fixed_chunks.hpp"
-#include "rilo/cloud/deskew.hpp"
-
 namespace rilo {
 
 namespace {
@@ -29,15 +26,6 @@ Vector12d prior_error(const MotionPrior& prior, const MotionState& state) {
   return e;
 }
 
-/// Tabulated motion over the span of the source's offsets.
-SweepMotion motion_of(const TimedCloud& source, const Vector6d& twist) {
-  if (source.offsets_s.empty()) {
-    return {twist, 0.0F, 0.0F};
-  }
-  const auto [begin, end] = std::minmax_element(source.offsets_s.begin(), source.offsets_s.end());
-  return {twist, *begin, *end};
-}
-
 }  // namespace
 
 MotionState perturbed(const MotionState& state, const Vector12d& delta) {
@@ -49,48 +37,6 @@ MotionState perturbed(const MotionState& state, const Vector12d& delta) {
   moved.twist.head<3>() += R_old.transpose() * delta.segment<3>(6);
   moved.twist.tail<3>() += R_old.transpose() * delta.segment<3>(9);
   return moved;
-}
-
-NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
-                          const AdaptiveIcpConfig& config, std::size_t stride) {
-  const bool timed = source.timed();
-  const bool refine = timed && config.refine_motion;
-  const Eigen::Matrix3d R = state.T_odom_lidar.linear();
-  const Eigen::Vector3d t = state.T_odom_lidar.translation();
-  const SweepMotion motion = motion_of(source, state.twist);
-  const double gate = config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m;
-  const double sigma2 = sigma_th_m * sigma_th_m;
-  const std::size_t count = (source.size() + stride - 1) / stride;
-  std::vector<NormalEquations> partial(chunk_count(count));
-  for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    NormalEquations sum;
-    const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
-      const std::size_t i = k * stride;
-      const Eigen::Vector3f p = timed ? motion.compensate(source.points[i], source.offsets_s[i]) : source.points[i];
-      return R * p.cast<double>() + t;
-    };
-    map.visit(first, last, point_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
-      const MapPlane plane = spot.grid->plane_at(spot);
-      const double e = plane.normal.dot(world - plane.point);  // e_k = (p_k − q_k)·n_k
-      if (std::abs(e) > gate) {
-        return;
-      }
-      const double beta = config.adaptive ? sigma2 / (sigma2 + e * e) : 1.0;  // β_k
-      Vector6d J;                                                             // [(p × n)ᵀ nᵀ]
-      J << (world - t).cross(plane.normal), plane.normal;
-      if (refine) {
-        sum.add(J, e, beta, static_cast<double>(source.offsets_s[k * stride]));
-      } else {
-        sum.add(J, e, beta);
-      }
-    });
-    partial[chunk] = sum;
-  });
-  NormalEquations total;
-  for (const NormalEquations& sum : partial) {
-    total += sum;
-  }
-  return total;
 }
 
 namespace {
@@ -131,10 +77,11 @@ IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const Moti
                        const MotionPrior& prior, double sigma_th_m, const AdaptiveIcpConfig& config) {
   IcpResult result;
   result.state = initial;
+  PlaneMatches matches(config.rematch_m);
   std::size_t stride = source.size() >= kLeastForStride ? static_cast<std::size_t>(config.coarse_stride) : 1;
   while (result.iterations < config.max_iterations) {
     ++result.iterations;
-    const NormalEquations sums = linearise(source, map, result.state, sigma_th_m, config, stride);
+    const NormalEquations sums = matches.linearise(source, map, result.state, sigma_th_m, config, stride);
     Vector12d delta;
     if (sums.count < kLeastCorrespondences || !step(sums, prior, config, static_cast<double>(stride), result, delta)) {
       result.inliers = sums.count;

@@ -16,7 +16,10 @@ struct Candidate {
   double score = 0;
 };
 
-/// Grid nodes, nearest to the centre first: among equal scores the smaller motion wins.
+constexpr std::size_t kFirstShare = 4;       // a quarter of the points rules out ...
+constexpr std::size_t kSurvivors = 8;        // ... all but an eighth of the nodes, ...
+constexpr std::size_t kLeastSurvivors = 50;  // ... but leaves so many
+
 std::vector<Candidate> grid_nodes(const PoseGrid& grid) {
   const int shifts = static_cast<int>(std::lround(grid.max_shift_m / grid.shift_step_m));
   const int yaws = static_cast<int>(std::lround(grid.max_yaw_rad / grid.yaw_step_rad));
@@ -77,9 +80,11 @@ std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& p
   return picked;
 }
 
-std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre,
-                              const PoseGrid& grid, double sigma_m, std::size_t keep) {
-  std::vector<Candidate> nodes = grid_nodes(grid);
+namespace {
+
+/// Scores the nodes and sorts them, best first; among equal scores the smaller motion wins.
+void score_nodes(std::vector<Candidate>& nodes, const std::vector<Eigen::Vector3f>& points, const LocalMap& map,
+                 const SE3& centre, const PoseGrid& grid, double sigma_m) {
   for_each_index(nodes.size(), [&](std::size_t i) {
     nodes[i].score = map_score(points, map, pose_of(nodes[i], centre, grid), sigma_m);
   });
@@ -87,6 +92,17 @@ std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const 
   std::stable_sort(nodes.begin(), nodes.end(), [&](const Candidate& a, const Candidate& b) {
     return a.score != b.score ? a.score > b.score : distance2(a) < distance2(b);
   });
+}
+
+}  // namespace
+
+std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre,
+                              const PoseGrid& grid, double sigma_m, std::size_t keep) {
+  std::vector<Candidate> nodes = grid_nodes(grid);
+  // A few points rule most of the nodes out.
+  score_nodes(nodes, evenly_picked(points, points.size() / kFirstShare + 1), map, centre, grid, sigma_m);
+  nodes.resize(std::max(nodes.size() / kSurvivors, std::min(nodes.size(), kLeastSurvivors)));
+  score_nodes(nodes, points, map, centre, grid, sigma_m);
   std::vector<Candidate> chosen;
   for (const Candidate& node : nodes) {
     if (chosen.size() == keep) {

@@ -45,10 +45,11 @@ class PointGrid {
 
   const Cell* find_cell(const VoxelIndex& index) const;
 
-  /// Calls visit(point index, squared distance) for every point of the shell of cells at Chebyshev distance `ring`
-  /// around `centre`.
+  /// Calls visit(point index, squared distance) for every point of the cells at Chebyshev distance `ring` around
+  /// `centre`, but for cells that lie wholly beyond `limit2`, a squared distance that may shrink on the way.
   template <typename Visit>
-  void visit_ring(const Eigen::Vector3f& p, const VoxelIndex& centre, int ring, const Visit& visit) const;
+  void visit_ring(const Eigen::Vector3f& p, const VoxelIndex& centre, int ring, const float& limit2,
+                  const Visit& visit) const;
 
   double cell_m_;
   double inverse_;

@@ -38,6 +38,34 @@ struct IcpResult {
   PoseDegeneracy degeneracy;
 };
 
+/// The planes that the points of one source cloud were matched with in one state of the map, kept from one iteration to
+/// the next: the last ones move the sweep by millimetres and meet the same planes again.
+class PlaneMatches {
+ public:
+  /// `rematch_m`: how far the sweep may move before its planes are looked up again; 0: not at all.
+  explicit PlaneMatches(double rematch_m) : rematch_m_(rematch_m) {}
+
+  /// linearise() below, on the planes kept where `state` is near enough to where they were looked up.
+  NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
+                            const AdaptiveIcpConfig& config, std::size_t stride);
+
+ private:
+  struct Match {
+    Eigen::Vector3d normal;
+    double distance = 0;  // of the plane from the origin along its normal (m)
+    bool found = false;
+  };
+  void measure(const TimedCloud& source);
+  bool near(const MotionState& state) const;
+
+  double rematch_m_;
+  std::vector<Match> matches_;  // of every stride-th point
+  std::size_t stride_ = 0;      // 0: none are kept
+  MotionState state_;           // at which they were looked up
+  double lever_m_ = 0;          // typical range of a point
+  double half_span_s_ = 0;      // largest offset of a point from the instant of the pose
+};
+
 /// Residuals and Jacobians of `source` against the planes of `map` at `state`, with the Cauchy weight of σ_th (eq.
 /// β_k), summed. The pose is perturbed as described at MotionPrior. Only every `stride`-th point is looked at.
 NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,

@@ -9,6 +9,7 @@ struct AdaptiveIcpConfig {
   double gate = 3.0;          ///< residuals beyond gate · σ_th are no correspondences
   int max_iterations = 30;
   int coarse_stride = 4;                ///< every n-th point until it converges, then all points
+  double rematch_m = 0.005;             ///< planes are looked up again once the sweep has moved so far; 0: always
   double damping = 1e-9;                ///< λ, relative to the largest diagonal element
   double rotation_epsilon_rad = 1e-5;   ///< converged when an update turns less …
   double translation_epsilon_m = 1e-4;  ///< … and moves less

@@ -1,0 +1,113 @@
+// Residuals of points against the planes of the map, and their normal equations.
+#include <algorithm>
+#include <cmath>
+
+#include "cloud/fixed_chunks.hpp"
+#include "rilo/cloud/deskew.hpp"
+#include "rilo/registration/adaptive_icp.hpp"
+
+namespace rilo {
+
+namespace {
+
+/// Tabulated motion over the span of the source's offsets.
+SweepMotion motion_of(const TimedCloud& source, const Vector6d& twist) {
+  if (source.offsets_s.empty()) {
+    return {twist, 0.0F, 0.0F};
+  }
+  const auto [begin, end] = std::minmax_element(source.offsets_s.begin(), source.offsets_s.end());
+  return {twist, *begin, *end};
+}
+
+}  // namespace
+
+void PlaneMatches::measure(const TimedCloud& source) {
+  double sum = 0.0;
+  for (const Eigen::Vector3f& p : source.points) {
+    sum += static_cast<double>(p.norm());
+  }
+  lever_m_ = source.points.empty() ? 0.0 : sum / static_cast<double>(source.size());
+  half_span_s_ = 0.0;
+  for (const float offset : source.offsets_s) {
+    half_span_s_ = std::max(half_span_s_, static_cast<double>(std::abs(offset)));
+  }
+}
+
+bool PlaneMatches::near(const MotionState& state) const {
+  // How far a typical point has moved: with the pose, and at either end of the sweep with the velocity.
+  const SE3 moved = state_.T_odom_lidar.inverse() * state.T_odom_lidar;
+  const Vector6d rate = state.twist - state_.twist;
+  const double turned_rad = so3_log(moved.linear()).norm() + half_span_s_ * rate.head<3>().norm();
+  return moved.translation().norm() + half_span_s_ * rate.tail<3>().norm() + lever_m_ * turned_rad < rematch_m_;
+}
+
+NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state,
+                                        double sigma_th_m, const AdaptiveIcpConfig& config, std::size_t stride) {
+  const bool timed = source.timed();
+  const bool refine = timed && config.refine_motion;
+  const Eigen::Matrix3d R = state.T_odom_lidar.linear();
+  const Eigen::Vector3d t = state.T_odom_lidar.translation();
+  const SweepMotion motion = motion_of(source, state.twist);
+  const double gate = config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m;
+  const double sigma2 = sigma_th_m * sigma_th_m;
+  const std::size_t count = (source.size() + stride - 1) / stride;
+  const bool keep = stride == stride_ && count == matches_.size() && near(state);
+  if (!keep) {
+    if (stride_ == 0) {
+      measure(source);
+    }
+    matches_.assign(count, Match{});
+    stride_ = stride;
+    state_ = state;
+  }
+  std::vector<NormalEquations> partial(chunk_count(count));
+  for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    NormalEquations sum;
+    const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
+      const std::size_t i = k * stride;
+      const Eigen::Vector3f p = timed ? motion.compensate(source.points[i], source.offsets_s[i]) : source.points[i];
+      return R * p.cast<double>() + t;
+    };
+    const auto add = [&](std::size_t k, const Eigen::Vector3d& world) {
+      const Match& match = matches_[k];
+      const double e = match.normal.dot(world) - match.distance;  // e_k = (p_k − q_k)·n_k
+      if (std::abs(e) > gate) {
+        return;
+      }
+      const double beta = config.adaptive ? sigma2 / (sigma2 + e * e) : 1.0;  // β_k
+      Vector6d J;                                                             // [(p × n)ᵀ nᵀ]
+      J << (world - t).cross(match.normal), match.normal;
+      if (refine) {
+        sum.add(J, e, beta, static_cast<double>(source.offsets_s[k * stride]));
+      } else {
+        sum.add(J, e, beta);
+      }
+    };
+    if (keep) {
+      for (std::size_t k = first; k < last; ++k) {
+        if (matches_[k].found) {
+          add(k, point_at(k));
+        }
+      }
+    } else {
+      map.visit(first, last, point_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
+        const MapPlane plane = spot.grid->plane_at(spot);
+        matches_[k] = {plane.normal, plane.normal.dot(plane.point), true};
+        add(k, world);
+      });
+    }
+    partial[chunk] = sum;
+  });
+  NormalEquations total;
+  for (const NormalEquations& sum : partial) {
+    total += sum;
+  }
+  return total;
+}
+
+NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
+                          const AdaptiveIcpConfig& config, std::size_t stride) {
+  return PlaneMatches(0.0).linearise(source, map, state, sigma_th_m, config, stride);
+}
+
+}  // namespace rilo

@@ -84,6 +84,9 @@ TEST(DatasetLayoutsTest, FiveFloats) {
   EXPECT_EQ(open_scan_source(folder / "b")->next()->points.size(), 5U);
   folder.write("c/0.pcd.bin", five + five);
   EXPECT_EQ(open_scan_source(folder / "c")->next()->points.size(), 4U);
+  // 20 bytes that are four columns and a surplus: what would be the ring is none.
+  folder.write("e/0.bin", test::bytes_of<float>({1, 2, 3, 0.4F, 5.5F}));
+  expect_io_error([&] { open_scan_source(folder / "e")->next(); }, {"20 bytes", "bin_fields"});
   folder.write("d/0.bin", five.substr(0, 33));
   expect_io_error([&] { open_scan_source(folder / "d")->next(); }, {"33 bytes", "bin_fields"});
 }

@@ -6,8 +6,9 @@
 #include "harness.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto [text, packets] = rilo::fuzz::split(rilo::fuzz::bytes_of(data, size));
-  const rilo::fuzz::MemoryFile file(text);
+  const rilo::fuzz::Halves halves = rilo::fuzz::split(rilo::fuzz::bytes_of(data, size));
+  const std::string_view packets = halves.second;
+  const rilo::fuzz::MemoryFile file(halves.first);
   rilo::fuzz::only_io_errors([&] {
     const auto metadata = rilo::detail::read_ouster_metadata(file.path());
     const std::size_t bytes = rilo::detail::ouster_packet_bytes(metadata);

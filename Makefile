@@ -1,5 +1,5 @@
 # Thin front door: each line calls a script. `make help` lists them.
-.PHONY: help setup demo test bench lint format docs coverage sanitize clean
+.PHONY: help setup demo test bench lint format docs coverage sanitize fuzz clean
 
 help:      ## this list
 	@sed -n 's/^\([a-z]*\): *## */  make \1\t/p' Makefile | expand -t 20
@@ -21,5 +21,7 @@ coverage:  ## line coverage of the core, at least 90 %
 	@scripts/coverage.sh
 sanitize:  ## the tests under AddressSanitizer and UBSan
 	@scripts/sanitize.sh
+fuzz:      ## a minute of fuzzing for each parser
+	@scripts/fuzz.sh
 clean:     ## remove build/ and out/
 	@rm -rf build out

@@ -15,7 +15,12 @@ set(RILO_PACKAGE_TABLE
   "CLI11::CLI11=CLI11"
   "Threads::Threads=Threads"
   "ZLIB::ZLIB=ZLIB"
-  "PNG::PNG=PNG")
+  "PNG::PNG=PNG"
+  "SQLite::SQLite3=SQLite3"
+  "ZSTD::zstd=ZSTD"
+  "LZ4::lz4=LZ4"
+  "PCAP::pcap=PCAP"
+  "RosbagStorage::rosbag_storage=RosbagStorage")
 
 # Splits the links of `target` into packages to find and components of ours.
 function(rilo_dependencies_of target packages_out components_out)
@@ -72,6 +77,8 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rilo-config.cmake.in ${P
   INSTALL_DESTINATION ${RILO_CMAKE_DIR} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/rilo-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/rilo-config.cmake ${PROJECT_BINARY_DIR}/rilo-config-version.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/FindLZ4.cmake ${CMAKE_CURRENT_LIST_DIR}/FindPCAP.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/FindRosbagStorage.cmake ${CMAKE_CURRENT_LIST_DIR}/FindZSTD.cmake
   DESTINATION ${RILO_CMAKE_DIR})
 # Relative, so that `cmake --install --prefix` and moved prefixes work.
 file(RELATIVE_PATH RILO_PC_TO_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")

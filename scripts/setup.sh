@@ -6,22 +6,26 @@
 #   scripts/setup.sh --lint     also clang-format, clang-tidy, gcovr, shellcheck
 #   scripts/setup.sh --docs     also Doxygen
 #   scripts/setup.sh --bench    also Valgrind, which counts instructions
+#   scripts/setup.sh --fuzz     also Clang with libFuzzer
 #   scripts/setup.sh --print    print the package names instead of installing them
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 build=(build-essential cmake make libeigen3-dev libtbb-dev
        libcli11-dev libyaml-cpp-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libnanoflann-dev
-       libpng-dev)
-tests=(git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-numpy)
+       libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev)
+# librosbag-storage brings much of ROS along: without it everything but ROS 1 bags is read.
+tests=(librosbag-storage-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-numpy)
 lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
 bench=(valgrind)
+fuzz=(clang libclang-rt-14-dev)
 
 minimal=false
 with_lint=false
 with_docs=false
 with_bench=false
+with_fuzz=false
 print_only=false
 for argument in "$@"; do
   case "$argument" in
@@ -29,9 +33,10 @@ for argument in "$@"; do
     --lint) with_lint=true ;;
     --docs) with_docs=true ;;
     --bench) with_bench=true ;;
+    --fuzz) with_fuzz=true ;;
     --print) print_only=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/setup.sh | grep -v '^shellcheck'; exit 0 ;;
-    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --print" ;;
+    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --fuzz --print" ;;
   esac
 done
 
@@ -40,6 +45,7 @@ $minimal || wanted+=("${tests[@]}")
 ! $with_lint || wanted+=("${lint[@]}")
 ! $with_docs || wanted+=("${docs[@]}")
 ! $with_bench || wanted+=("${bench[@]}")
+! $with_fuzz || wanted+=("${fuzz[@]}")
 if $print_only; then
   printf '%s\n' "${wanted[@]}"
   exit 0

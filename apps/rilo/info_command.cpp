@@ -26,7 +26,6 @@ struct InfoFlags {
 };
 
 constexpr std::size_t kLookedAt = 50;  // sweeps whose points are read, spread evenly over the data by skipping
-constexpr double kGapFactor = 1.5;     // a gap this many periods long has lost a sweep
 
 struct Survey {
   std::size_t sweeps = 0;
@@ -100,15 +99,9 @@ nlohmann::json stamps_json(const Survey& survey, const SourceInfo& info, bool co
   }
   json["span_s"] = static_cast<double>(survey.stamps.back() - survey.stamps.front()) * 1e-9;
   if (complete) {
-    std::size_t gaps = 0;
-    std::size_t backward = 0;
-    for (std::size_t i = 1; i < survey.stamps.size(); ++i) {
-      const double dt = static_cast<double>(survey.stamps[i] - survey.stamps[i - 1]) * 1e-9;
-      gaps += dt > kGapFactor * info.period_s ? 1 : 0;
-      backward += dt <= 0.0 ? 1 : 0;
-    }
-    json["gaps"] = gaps;
-    json["not_increasing"] = backward;
+    const StampFaults& faults = info.faults;
+    json["gaps"] = faults.gaps;
+    json["not_increasing"] = faults.duplicates + faults.out_of_order + faults.repeated + faults.clock_jumps;
   }
   return json;
 }
@@ -146,6 +139,9 @@ nlohmann::json describe(const InfoFlags& flags) {
       {"calibration", info.T_cam_lidar.has_value()},
       {"elevation_correction_deg", info.elevation_correction_deg},
       {"truth", truth_json(flags.data)},
+      {"topic", info.topic},
+      {"frame_id", info.frame_id},
+      {"stamp_faults", stamp_faults_json(info.faults)},
       {"bad_sweeps", info.bad_sweeps},
       {"warnings", info.warnings},
   };
@@ -160,6 +156,10 @@ std::string as_text(const nlohmann::json& j) {
   std::string text =
       fmt::format("{}: {}, {} sweeps of {}\n", j["data"].get<std::string>(), j["kind"].get<std::string>(),
                   j["sweeps"].get<std::size_t>(), j["format"].get<std::string>());
+  if (!j["topic"].get<std::string>().empty()) {
+    text +=
+        fmt::format("topic         {}, frame {}\n", j["topic"].get<std::string>(), j["frame_id"].get<std::string>());
+  }
   const auto& points = j["points"];
   text += fmt::format("points        min {} mean {:.0f} max {}, {} not finite (of {} sweeps read)\n",
                       points["min"].get<std::size_t>(), points["mean"].get<double>(), points["max"].get<std::size_t>(),

@@ -18,10 +18,12 @@ namespace rilo::cli {
 namespace {
 
 constexpr const char* kFooter =
-    R"(DATA is a KITTI sequence folder, a drive simulator's folder, a folder of .bin, .pcd or .ply sweeps, or one such file.
+    R"(DATA is a recording (ROS 1 bags, rosbag2, MCAP), a pcap of a Velodyne or an Ouster, a KITTI sequence or raw drive, a
+MulRan sequence, a drive simulator's folder, a folder of .bin, .pcd or .ply sweeps, or one such file.
 
 Examples:
   rilo run kitti/sequences/00 --out results/00 --elevation-correction 0.205
+  rilo run drive.bag --topic /velodyne_points --out results/drive
   rilo run 2011_09_26_drive_0001_sync --point-times azimuth --out results/0001
   rilo run sweeps/ --bin-fields x,y,z,intensity,ring --set preprocess.max_range_m=60 --map map.pcd
 

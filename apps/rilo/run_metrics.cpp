@@ -8,6 +8,7 @@
 
 #include "evaluation_output.hpp"
 #include "run_record.hpp"
+#include "source_flags.hpp"
 #include "text.hpp"
 #include "version.hpp"
 
@@ -141,7 +142,10 @@ nlohmann::json run_metrics(const RunRecord& run) {
       {"point_times", run.source.point_times},
       {"motion_compensation", run.source.has_point_times && run.config.preprocess.deskew},
       {"elevation_correction_deg", run.source.elevation_correction_deg},
+      {"topic", run.source.topic},
+      {"frame_id", run.source.frame_id},
       {"bad_sweeps", run.source.bad_sweeps},
+      {"stamp_faults", stamp_faults_json(run.source.faults)},
       {"warnings", run.source.warnings},
   };
   metrics.update(counts(run));

@@ -43,8 +43,24 @@ void add_time_flags(CLI::App& command, SourceFlags& flags) {
 
 }  // namespace
 
+nlohmann::json stamp_faults_json(const StampFaults& faults) {
+  return {{"gaps", faults.gaps},
+          {"missing_sweeps", faults.missing},
+          {"longest_gap_s", faults.longest_gap_s},
+          {"duplicates", faults.duplicates},
+          {"out_of_order", faults.out_of_order},
+          {"repeated_stamps", faults.repeated},
+          {"clock_jumps", faults.clock_jumps},
+          {"late", faults.late},
+          {"most_late_s", faults.most_late_s}};
+}
+
 void add_source_flags(CLI::App& command, SourceFlags& flags) {
   SourceOptions& options = flags.options;
+  command.add_option("--topic", options.topic, "PointCloud2 topic of a recording that has several");
+  command.add_option("--sensor-file", options.sensor_file,
+                     "what a pcap needs: an Ouster's metadata (JSON; by default the one beside the recording) or an "
+                     "HDL-64E's calibration (YAML of velodyne_pointcloud)");
   command
       .add_option("--bin-fields", options.bin_fields,
                   "columns of a .bin record, float32 each: x,y,z and intensity, time, ring; _ is ignored")

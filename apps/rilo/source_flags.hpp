@@ -4,8 +4,10 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "rilo/cloud/sweep.hpp"
+#include "rilo/io/scan_source.hpp"
 #include "rilo/io/source_options.hpp"
 
 namespace rilo::cli {
@@ -17,6 +19,9 @@ struct SourceFlags {
 
 /// Adds --bin-fields, --point-times and the others to `command`; they end up in `flags`.
 void add_source_flags(CLI::App& command, SourceFlags& flags);
+
+/// What metrics.json and `rilo info --json` say about the stamps.
+nlohmann::json stamp_faults_json(const StampFaults& faults);
 
 /// @throws CommandError(kBadData) when the sweep of that name lacks the point times that are needed.
 void check_point_times(const SourceFlags& flags, const Sweep& sweep, const std::string& name);

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
+#include <system_error>
 
 #include "io/bin_fields.hpp"
 #include "io/cloud_columns.hpp"
@@ -43,6 +45,48 @@ std::vector<Field> parse_bin_fields(const std::string& text) {
     if (std::none_of(fields.begin(), fields.end(), same)) refuse(text, std::string("no column ") + axis);
   }
   return fields;
+}
+
+namespace {
+
+// Numbers of beams in the fifth column: a size alone may fit by chance, where bytes are missing or too many.
+bool has_rings_behind(const std::filesystem::path& file) {
+  constexpr std::size_t kRecords = 1000;
+  constexpr float kMostBeams = 1024;
+  constexpr std::size_t kColumns = 5;
+  try {
+    const FileBytes bytes = read_file(file, kRecords * kColumns * sizeof(float));
+    for (std::size_t at = 0; at + kColumns * sizeof(float) <= bytes.size; at += kColumns * sizeof(float)) {
+      float ring = 0;
+      std::memcpy(&ring, bytes.data.get() + at + 4 * sizeof(float), sizeof(ring));
+      if (!(ring >= 0 && ring < kMostBeams && ring == std::floor(ring))) return false;
+    }
+  } catch (const IoError&) {
+    return false;  // reported when its turn comes
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string guess_bin_fields(const std::vector<std::filesystem::path>& files) {
+  constexpr std::size_t kLookedAt = 50;
+  const std::size_t step = std::max<std::size_t>(1, files.size() / kLookedAt);
+  bool four = true;
+  bool five = true;
+  bool seen = false;
+  bool named = !files.empty();
+  for (std::size_t i = 0; i < files.size(); i += step) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(files[i], error);
+    if (error || size == 0) continue;
+    seen = true;
+    five = five && size % 20 == 0;
+    four = four && size % 16 == 0;
+    named = named && lower_case(files[i].filename().string()).ends_with(".pcd.bin");
+    if (five && !four && !named) five = has_rings_behind(files[i]);
+  }
+  return seen && five && (!four || named) ? "x,y,z,intensity,ring" : "x,y,z,intensity";
 }
 
 namespace {

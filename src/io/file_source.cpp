@@ -17,8 +17,13 @@ namespace {
 PointTimeHints hints_of(const ScanListing& listing, const SourceOptions& options) {
   PointTimeHints hints{options.point_time_unit, options.point_time_reference, std::nullopt, listing.info.period_s};
   if (listing.period_known) hints.period_s = listing.info.period_s;
-  if (!listing.fraction_files.empty()) hints.unit = PointTimeUnit::kFraction;
+  if (!listing.fraction_files.empty() || listing.column_points > 0) hints.unit = PointTimeUnit::kFraction;
   return hints;
+}
+
+SourceOptions with_bin_fields(const ScanListing& listing, SourceOptions options) {
+  if (options.bin_fields == "auto") options.bin_fields = guess_bin_fields(listing.files);
+  return options;
 }
 
 std::vector<Field> fields_of(const std::filesystem::path& file, const std::string& format,
@@ -37,6 +42,7 @@ std::vector<Field> fields_of(const std::filesystem::path& file, const std::strin
 
 // What the first file promises. A file that cannot be read is reported when its turn comes.
 std::optional<std::string> promised_times(const ScanListing& listing, const SourceOptions& options) {
+  if (listing.column_points > 0) return "the order of the points, fractions of the sweep since its stamp";
   if (!listing.fraction_files.empty()) return "times_pt, fractions of the sweep since its stamp";
   try {
     const std::vector<Field> fields = fields_of(listing.files.front(), listing.info.format, options);
@@ -48,8 +54,17 @@ std::optional<std::string> promised_times(const ScanListing& listing, const Sour
   return std::nullopt;
 }
 
-std::string describe_azimuth(const SourceOptions& options, double period_s) {
-  return "azimuth, " + std::string(to_string(options.spin_direction)) + ", period " + std::to_string(period_s) + " s";
+// Of a sensor whose columns lie one after the other; a sweep that lacks points has none.
+std::optional<RawTimes> column_fractions(std::size_t points, std::size_t column_points) {
+  constexpr std::size_t kColumns = 1024;
+  if (points != column_points * kColumns) return std::nullopt;
+  RawTimes times{"order of the points", ScalarType::kFloat32, {}, {}};
+  times.floats.resize(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    const std::size_t column = i / column_points;
+    times.floats[i] = static_cast<double>(column) / static_cast<double>(kColumns);
+  }
+  return times;
 }
 
 RawTimes read_fractions(const std::filesystem::path& file, std::size_t points) {
@@ -69,16 +84,10 @@ RawTimes read_fractions(const std::filesystem::path& file, std::size_t points) {
 }  // namespace
 
 FileSource::FileSource(ScanListing listing, const SourceOptions& options)
-    : listing_(std::move(listing)), options_(options), times_(hints_of(listing_, options)) {
-  SourceInfo& info = listing_.info;
-  if (options.point_times == PointTimes::kAzimuth) {
-    info.has_point_times = true;
-    info.point_times = describe_azimuth(options, info.period_s);
-  } else if (options.point_times == PointTimes::kAuto) {
-    const auto promised = promised_times(listing_, options);
-    info.has_point_times = promised.has_value();
-    info.point_times = promised.value_or("none");
-  }
+    : listing_(std::move(listing)),
+      options_(with_bin_fields(listing_, options)),
+      timing_(options, hints_of(listing_, options), listing_.info.period_s) {
+  if (options.point_times == PointTimes::kAuto) timing_.promise(promised_times(listing_, options_));
 }
 
 std::optional<Sweep> FileSource::next() {
@@ -88,7 +97,7 @@ std::optional<Sweep> FileSource::next() {
       return load(current_);
     } catch (const IoError& error) {
       if (options_.on_bad_sweep == OnBadSweep::kFail) throw;
-      note_bad(error);
+      note_bad_sweep(error, listing_.info);
     }
   }
   return std::nullopt;
@@ -104,17 +113,15 @@ std::string FileSource::current_name() const { return listing_.files[current_].s
 
 SourceInfo FileSource::info() const {
   SourceInfo info = listing_.info;
-  const auto& convention = times_.convention();
-  const bool stamped_by_points = convention && convention->reference == PointTimeReference::kEpoch;
-  if (stamped_by_points) info.stamps_assumed = false;
+  info.has_point_times = timing_.has_times();
+  info.point_times = timing_.description();
+  if (timing_.sets_stamps()) info.stamps_assumed = false;
   if (info.stamps_assumed && info.kind != "file") {
     info.warnings.insert(info.warnings.begin(),
                          "no stamps in the data: " + std::to_string(std::lround(options_.assumed_rate_hz)) +
                              " sweeps a second are assumed");
   }
-  if (info.bad_sweeps > 0) {
-    info.warnings.push_back(std::to_string(info.bad_sweeps) + " sweeps could not be read and were left out");
-  }
+  add_bad_sweep_count(info);
   return info;
 }
 
@@ -136,32 +143,13 @@ Sweep FileSource::load(std::size_t index) {
 }
 
 void FileSource::set_times(std::size_t index, std::optional<RawTimes> times, Sweep& sweep) {
-  SourceInfo& info = listing_.info;
-  if (options_.point_times == PointTimes::kNone) return;
-  if (options_.point_times == PointTimes::kAzimuth) {
-    sweep.stamp_ns += std::llround(listing_.forward_after_s * 1e9);
-    sweep.times_s = azimuth_times(sweep.points, info.period_s, options_.spin_direction);
-    return;
-  }
   std::filesystem::path file = listing_.files[index];
-  if (!listing_.fraction_files.empty()) {
+  if (options_.point_times == PointTimes::kAuto && !listing_.fraction_files.empty()) {
     file = listing_.fraction_files[index];
     times = read_fractions(file, sweep.points.size());
   }
-  info.has_point_times = times.has_value();
-  if (!times) {
-    info.point_times = "none";
-    return;
-  }
-  times_.decode(*times, file, sweep);
-  if (!times_.description().empty()) info.point_times = times_.description();
-}
-
-void FileSource::note_bad(const IoError& error) {
-  constexpr std::size_t kMostMessages = 20;
-  if (listing_.info.bad_sweeps++ < kMostMessages) {
-    listing_.info.warnings.push_back(std::string("left out: ") + error.what());
-  }
+  if (!times && listing_.column_points > 0) times = column_fractions(sweep.points.size(), listing_.column_points);
+  timing_.apply(times, file, listing_.forward_after_s, sweep);
 }
 
 }  // namespace rilo::detail

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "io/scan_listing.hpp"
+#include "io/sweep_timing.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/point_times.hpp"
 #include "rilo/io/scan_source.hpp"
 
 namespace rilo::detail {
@@ -27,11 +27,10 @@ class FileSource final : public ScanSource {
   Sweep load(std::size_t index);
   RawCloud read_cloud(const std::filesystem::path& file) const;
   void set_times(std::size_t index, std::optional<RawTimes> times, Sweep& sweep);
-  void note_bad(const IoError& error);
 
   ScanListing listing_;
   SourceOptions options_;
-  PointTimeDecoder times_;
+  SweepTiming timing_;
   std::size_t cursor_ = 0;   // of the next sweep
   std::size_t current_ = 0;  // of the last one
 };

@@ -64,9 +64,16 @@ std::optional<GroundTruth> find_truth(const fs::path& data, TruthInstant instant
 
 void compare_counts(const fs::path& data, GroundTruth& truth) {
   std::error_code ignored;
-  const fs::path velodyne = data / "velodyne";
-  const std::size_t sweeps =
-      detail::find_sweep_files(fs::is_directory(velodyne, ignored) ? velodyne : data).files.size();
+  fs::path folder = data;
+  for (const char* name : {"velodyne", "velodyne_points/data", "sensor_data/Ouster"}) {
+    if (fs::is_directory(data / name, ignored)) folder = data / name;
+  }
+  std::size_t sweeps = 0;
+  try {
+    sweeps = detail::find_sweep_files(folder).files.size();
+  } catch (const IoError&) {
+    return;  // a recording: its sweeps are counted when they come
+  }
   const std::size_t poses = truth.T_world_lidar.size();
   if (poses == sweeps) return;
   truth.warnings.push_back(truth.file.filename().string() + " has " + std::to_string(poses) + " poses for " +

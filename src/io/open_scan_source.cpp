@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <system_error>
@@ -5,7 +6,11 @@
 
 #include "io/bin_fields.hpp"
 #include "io/file_source.hpp"
+#include "io/packets/packet_source.hpp"
+#include "io/ros/recording_source.hpp"
 #include "io/scan_listing.hpp"
+#include "io/stamp_order.hpp"
+#include "io/text.hpp"
 #include "rilo/io/elevation_correction.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/prefetch_source.hpp"
@@ -17,30 +22,87 @@ namespace {
 
 void check_options(const SourceOptions& options) {
   constexpr double kLargestRate = 1000;
-  detail::parse_bin_fields(options.bin_fields);
+  if (options.bin_fields != "auto") detail::parse_bin_fields(options.bin_fields);
   if (!(options.assumed_rate_hz > 0 && options.assumed_rate_hz <= kLargestRate)) {
     throw std::invalid_argument("assumed_rate_hz is " + std::to_string(options.assumed_rate_hz) +
                                 "; it must be above 0 and at most 1000");
   }
 }
 
-detail::ScanListing list_data(const fs::path& path, const SourceOptions& options) {
+std::string extension_of(const fs::path& file) { return detail::lower_case(file.extension().string()); }
+
+// Files of the folder with one of the extensions, in natural order.
+std::vector<fs::path> files_with(const fs::path& folder, std::initializer_list<std::string_view> extensions) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string extension = extension_of(entry->path());
+    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return detail::natural_less(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+std::unique_ptr<detail::Recording> recording_in_folder(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::exists(folder / "metadata.yaml", ignored) || !files_with(folder, {".db3", ".mcap"}).empty()) {
+    return detail::open_rosbag2(folder);
+  }
+  auto bags = files_with(folder, {".bag"});
+  if (!bags.empty()) return detail::open_in_turn(std::move(bags), detail::open_bag);
+  return nullptr;
+}
+
+std::unique_ptr<detail::Recording> recording_in_file(const fs::path& file) {
+  const std::string extension = extension_of(file);
+  if (extension == ".mcap") return detail::open_mcap(file);
+  if (extension == ".db3") return detail::open_db3(file);
+  if (extension == ".bag") return detail::open_bag(file);
+  return nullptr;
+}
+
+std::unique_ptr<ScanSource> open_folder(const fs::path& folder, const SourceOptions& options) {
+  std::error_code ignored;
+  if (fs::is_directory(folder / "velodyne", ignored)) {
+    return std::make_unique<detail::FileSource>(detail::list_sequence(folder, options), options);
+  }
+  if (detail::is_kitti_raw(folder)) {
+    return std::make_unique<detail::FileSource>(detail::list_kitti_raw(folder, options), options);
+  }
+  if (detail::is_mulran(folder)) {
+    return std::make_unique<detail::FileSource>(detail::list_mulran(folder, options), options);
+  }
+  if (auto recording = recording_in_folder(folder)) {
+    return std::make_unique<detail::RecordingSource>(folder, std::move(recording), options);
+  }
+  return std::make_unique<detail::FileSource>(detail::list_plain_folder(folder, options), options);
+}
+
+std::unique_ptr<ScanSource> open_file(const fs::path& file, const SourceOptions& options) {
+  const std::string extension = extension_of(file);
+  if (extension == ".pcap" || extension == ".pcapng") return std::make_unique<detail::PacketSource>(file, options);
+  if (auto recording = recording_in_file(file)) {
+    return std::make_unique<detail::RecordingSource>(file, std::move(recording), options);
+  }
+  return std::make_unique<detail::FileSource>(detail::list_single_file(file, options), options);
+}
+
+std::unique_ptr<ScanSource> open_data(const fs::path& path, const SourceOptions& options) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (fs::is_directory(status)) {
-    const bool is_sequence = fs::is_directory(path / "velodyne", error);
-    return is_sequence ? detail::list_sequence(path, options) : detail::list_plain_folder(path, options);
-  }
-  if (fs::is_regular_file(status)) return detail::list_single_file(path, options);
+  if (fs::is_directory(status)) return open_folder(path, options);
+  if (fs::is_regular_file(status)) return open_file(path, options);
   throw IoError({path, "", fs::exists(status) ? "neither a folder nor a file" : "there is nothing of this name",
-                 "a KITTI sequence folder, a folder of .bin, .pcd or .ply sweeps, or one such file", "Check the path"});
+                 "a recording, a folder of sweeps, or one sweep", "Check the path"});
 }
 
 }  // namespace
 
 std::unique_ptr<ScanSource> open_scan_source(const fs::path& path, const SourceOptions& options) {
   check_options(options);
-  std::unique_ptr<ScanSource> source = std::make_unique<detail::FileSource>(list_data(path, options), options);
+  std::unique_ptr<ScanSource> source = detail::with_stamp_order(open_data(path, options));
   if (options.elevation_correction_deg != 0) {
     source = with_elevation_correction(std::move(source), options.elevation_correction_deg);
   }

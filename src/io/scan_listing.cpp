@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/file_bytes.hpp"
+#include "io/stamp_difference.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/pose_reader.hpp"
@@ -18,20 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kNanoseconds = 1e9;
-
-// Median of the gaps that move forward, in s.
-std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps) {
-  std::vector<double> gaps;
-  for (std::size_t i = 1; i < stamps.size(); ++i) {
-    if (stamps[i] > stamps[i - 1]) {
-      gaps.push_back((static_cast<double>(stamps[i]) - static_cast<double>(stamps[i - 1])) / kNanoseconds);
-    }
-  }
-  if (gaps.empty()) return std::nullopt;
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return *middle;
-}
 
 void warn_about_order(ScanListing& listing) {
   constexpr double kGapPeriods = 1.5;
@@ -82,14 +69,6 @@ void add_point_times(ScanListing& listing, const fs::path& folder) {
   }
 }
 
-void start_listing(ScanListing& listing, const char* kind, const fs::path& path, SweepFiles found) {
-  listing.info.kind = kind;
-  listing.info.format = std::move(found.format);
-  listing.info.path = path;
-  listing.info.sweeps = found.files.size();
-  listing.files = std::move(found.files);
-}
-
 bool is_there(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(path, ignored);
@@ -118,6 +97,37 @@ void make_a_drive_of(ScanListing& listing, const fs::path& folder, const SourceO
 }
 
 }  // namespace
+
+std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps) {
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    if (stamps[i] > stamps[i - 1]) {
+      gaps.push_back(static_cast<double>(stamp_difference(stamps[i], stamps[i - 1])) / kNanoseconds);
+    }
+  }
+  if (gaps.empty()) return std::nullopt;
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  return *middle;
+}
+
+void note_bad_sweep(const IoError& error, SourceInfo& info) {
+  constexpr std::size_t kMostMessages = 20;
+  if (info.bad_sweeps++ < kMostMessages) info.warnings.push_back(std::string("left out: ") + error.what());
+}
+
+void add_bad_sweep_count(SourceInfo& info) {
+  if (info.bad_sweeps == 0) return;
+  info.warnings.push_back(std::to_string(info.bad_sweeps) + " sweeps could not be read and were left out");
+}
+
+void start_listing(ScanListing& listing, const char* kind, const fs::path& path, SweepFiles found) {
+  listing.info.kind = kind;
+  listing.info.format = std::move(found.format);
+  listing.info.path = path;
+  listing.info.sweeps = found.files.size();
+  listing.files = std::move(found.files);
+}
 
 void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const SourceOptions& options) {
   if (!stamps.empty()) {

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "rilo/io/io_error.hpp"
 #include "rilo/io/scan_source.hpp"
 
 namespace rilo::detail {
@@ -17,6 +19,7 @@ struct ScanListing {
   std::vector<std::filesystem::path> files;
   std::vector<std::int64_t> stamps_ns;                ///< as long as files
   std::vector<std::filesystem::path> fraction_files;  ///< a drive simulator's times_pt; empty, or as long as files
+  std::size_t column_points = 0;                      ///< points are in columns of so many, fired together; 0: unknown
   bool period_known = false;                          ///< info.period_s comes from stamps or meta.json
   double forward_after_s = 0;                         ///< from the stamp to the instant when the sensor faces forward
 };
@@ -28,11 +31,20 @@ ScanListing list_sequence(const std::filesystem::path& folder, const SourceOptio
 ScanListing list_plain_folder(const std::filesystem::path& folder, const SourceOptions& options);
 ScanListing list_single_file(const std::filesystem::path& file, const SourceOptions& options);
 
+/// A drive of KITTI raw: it has velodyne_points/data. MulRan's sequences have sensor_data/Ouster.
+bool is_kitti_raw(const std::filesystem::path& folder);
+ScanListing list_kitti_raw(const std::filesystem::path& folder, const SourceOptions& options);
+bool is_mulran(const std::filesystem::path& folder);
+ScanListing list_mulran(const std::filesystem::path& folder, const SourceOptions& options);
+
 /// Sweep files of a folder, all of one kind, in natural order.
 struct SweepFiles {
   std::string format;  ///< bin, pcd, ply
   std::vector<std::filesystem::path> files;
 };
+/// Fills in what is known of a listing from its files.
+void start_listing(ScanListing& listing, const char* kind, const std::filesystem::path& path, SweepFiles found);
+
 /// @throws IoError when there is none, or more than one kind.
 SweepFiles find_sweep_files(const std::filesystem::path& folder);
 
@@ -45,6 +57,14 @@ bool natural_less(const std::string& a, const std::string& b);
 /// Stamps of files named after them: 19 digits are ns, 16 are µs, decimals are seconds. Empty unless all files say so
 /// and the stamps increase.
 std::vector<std::int64_t> stamps_from_names(const std::vector<std::filesystem::path>& files);
+
+/// Median of the steps that move forward, in s; nothing when there are none.
+std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps);
+
+/// Counts a sweep that is left out (OnBadSweep::kSkip); the first ones are warnings of their own.
+void note_bad_sweep(const IoError& error, SourceInfo& info);
+/// The warning with the number of those.
+void add_bad_sweep_count(SourceInfo& info);
 
 /// Sets stamps and period from `stamps`, or from the assumed rate when there are none; adds the warnings.
 void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const SourceOptions& options);

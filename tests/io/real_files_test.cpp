@@ -1,6 +1,7 @@
 // Files that other programs wrote, from ../shared/data; skipped where it is absent.
+#include "io/real_files.hpp"
+
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -12,36 +13,8 @@ namespace rilo {
 namespace {
 
 using test::expect_io_error;
-using test::TempDir;
+using test::RealFiles;
 namespace fs = std::filesystem;
-
-class RealFiles : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    const char* told = std::getenv("RILO_SHARED");
-    const fs::path shared = told != nullptr ? fs::path(told) : fs::path(RILO_SOURCE_DIR).parent_path() / "shared";
-    const fs::path archive = shared / "data/formats.tar.xz";
-    if (!fs::exists(archive)) return;
-    folder = new TempDir();
-    const std::string command = "tar -xJf '" + archive.string() + "' -C '" + folder->path().string() +
-                                "' formats/pcd formats/ply formats/nuscenes formats/nclt formats/db3 formats/malformed";
-    unpacked = std::system(command.c_str()) == 0;
-  }
-  static void TearDownTestSuite() {
-    delete folder;
-    folder = nullptr;
-  }
-  void SetUp() override {
-    if (folder == nullptr) GTEST_SKIP() << "no ../shared/data/formats.tar.xz";
-    ASSERT_TRUE(unpacked);
-  }
-  static fs::path file(const std::string& name) { return folder->path() / "formats" / name; }
-
-  static TempDir* folder;
-  static bool unpacked;
-};
-TempDir* RealFiles::folder = nullptr;
-bool RealFiles::unpacked = false;
 
 // Sweeps of real sensors: some hundred metres around the sensor, most points measured.
 void expect_plausible(const RawCloud& cloud) {

@@ -14,10 +14,25 @@
 
 namespace rilo {
 
+/// What is wrong with the stamps of the sweeps given so far. None of it stops a run.
+struct StampFaults {
+  std::size_t gaps = 0;          ///< steps of more than 1.5 periods
+  std::size_t missing = 0;       ///< sweeps that would have been in them
+  double longest_gap_s = 0;      ///< 0: none
+  std::size_t duplicates = 0;    ///< left out: the same stamp and the same points as the one before
+  std::size_t out_of_order = 0;  ///< left out: older than a sweep before, by a second at most
+  std::size_t repeated = 0;      ///< kept: the stamp of the one before, other points
+  std::size_t clock_jumps = 0;   ///< kept: older than a sweep before by more, the clock was set back
+  std::size_t late = 0;          ///< kept: recorded more than a period later than the promptest one, see its stamp
+  double most_late_s = 0;        ///< of those
+
+  friend bool operator==(const StampFaults&, const StampFaults&) = default;
+};
+
 /// What a source is and what was decided about it. Some of it is known only after the first sweep was read.
 struct SourceInfo {
-  std::string kind;            ///< "kitti", "drive simulator", "folder", "file"
-  std::string format;          ///< "bin", "pcd", "ply"
+  std::string kind;            ///< "kitti", "drive simulator", "folder", "file", "recording", "packets", …
+  std::string format;          ///< "bin", "pcd", "ply", "mcap", "ROS 1 bag", …
   std::filesystem::path path;  ///< as given
   std::optional<std::size_t> sweeps;
   double period_s = 0.1;                ///< median gap of the stamps, or 1 / assumed_rate_hz
@@ -26,6 +41,9 @@ struct SourceInfo {
   std::string point_times = "none";     ///< where they come from, with unit and reference
   double elevation_correction_deg = 0;  ///< applied; 0: none
   std::optional<SE3> T_cam_lidar;       ///< KITTI's `Tr`
+  std::string topic;                    ///< of a recording
+  std::string frame_id;                 ///< of its messages
+  StampFaults faults;                   ///< of the stamps so far
   std::size_t bad_sweeps = 0;           ///< skipped so far (OnBadSweep::kSkip)
   std::vector<std::string> warnings;    ///< sentences for the user
 };

@@ -1,0 +1,26 @@
+# ROS 1's librosbag-storage as Debian packages it: target RosbagStorage::rosbag_storage. Its own configuration is for
+# catkin, and the headers that its headers include lie in folders of their own.
+include(FindPackageHandleStandardArgs)
+set(_needed "")
+set(_includes "")
+set(_libraries "")
+foreach(_header rosbag/bag.h pluginlib/class_loader.hpp class_loader/class_loader.hpp rcutils/logging_macros.h
+        rcpputils/find_and_replace.hpp ament_index_cpp/get_package_prefix.hpp)
+  get_filename_component(_name "${_header}" DIRECTORY)
+  find_path(RosbagStorage_${_name}_INCLUDE_DIR ${_header} PATH_SUFFIXES ${_name})
+  list(APPEND _needed RosbagStorage_${_name}_INCLUDE_DIR)
+  list(APPEND _includes ${RosbagStorage_${_name}_INCLUDE_DIR})
+endforeach()
+foreach(_name rosbag_storage roscpp_serialization rostime cpp_common console_bridge)
+  find_library(RosbagStorage_${_name}_LIBRARY ${_name})
+  list(APPEND _needed RosbagStorage_${_name}_LIBRARY)
+  list(APPEND _libraries ${RosbagStorage_${_name}_LIBRARY})
+endforeach()
+find_package_handle_standard_args(RosbagStorage REQUIRED_VARS ${_needed})
+if(RosbagStorage_FOUND AND NOT TARGET RosbagStorage::rosbag_storage)
+  add_library(RosbagStorage::rosbag_storage INTERFACE IMPORTED)
+  list(REMOVE_DUPLICATES _includes)
+  set_target_properties(RosbagStorage::rosbag_storage PROPERTIES
+    INTERFACE_LINK_LIBRARIES "${_libraries}" INTERFACE_INCLUDE_DIRECTORIES "${_includes}")
+endif()
+mark_as_advanced(${_needed})

@@ -1,0 +1,12 @@
+// ROS 1 bags: librosbag-storage, and the clouds in them.
+#include "harness.hpp"
+#include "io/ros/recording_source.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const rilo::fuzz::MemoryFile file(rilo::fuzz::bytes_of(data, size));
+  rilo::fuzz::only_io_errors([&] {
+    rilo::detail::RecordingSource source(file.path(), rilo::detail::open_bag(file.path()), {});
+    rilo::fuzz::read_all(source);
+  });
+  return 0;
+}

@@ -1,0 +1,54 @@
+// Ouster's LiDAR packets and the metadata that they need.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "io/packets/packet_decoder.hpp"
+
+namespace rilo::detail {
+
+enum class OusterProfile : std::uint8_t { kLegacy, kRng15, kRng19, kRng19Dual };
+
+struct OusterMetadata {
+  std::string product;  ///< "OS-1-128", as far as told
+  OusterProfile profile = OusterProfile::kLegacy;
+  std::size_t columns_per_frame = 1024;
+  std::size_t columns_per_packet = 16;
+  std::size_t columns_sent = 1024;  ///< of a frame: the window may be smaller than a turn
+  std::vector<double> elevations_rad;
+  std::vector<double> azimuths_rad;
+  double beam_origin_m = 0;  ///< from the axis of rotation
+  double rate_hz = 10;
+  Eigen::Matrix4d T_sensor_lidar = Eigen::Matrix4d::Identity();  ///< m
+
+  std::size_t pixels() const { return elevations_rad.size(); }
+};
+
+/// The JSON that the sensor gives, of all its versions.
+/// @throws IoError naming the key.
+OusterMetadata read_ouster_metadata(const std::filesystem::path& file);
+
+/// Where the bytes of a packet lie.
+struct OusterLayout {
+  std::size_t packet_header = 0;
+  std::size_t column_header = 0;
+  std::size_t column_footer = 0;
+  std::size_t pixel = 0;
+  std::size_t packet_footer = 0;
+
+  std::size_t column_bytes(std::size_t pixels) const { return column_header + pixels * pixel + column_footer; }
+};
+OusterLayout ouster_layout(OusterProfile profile);
+std::size_t ouster_packet_bytes(const OusterMetadata& metadata);
+
+/// A sweep is a frame of the sensor.
+std::unique_ptr<PacketDecoder> ouster_decoder(OusterMetadata metadata);
+
+}  // namespace rilo::detail

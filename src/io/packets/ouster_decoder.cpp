@@ -1,0 +1,144 @@
+// One frame of an Ouster after the other.
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "io/packets/ouster.hpp"
+
+namespace rilo::detail {
+namespace {
+
+template <typename T>
+T get(std::string_view bytes, std::size_t at) {
+  T value{};
+  std::memcpy(&value, bytes.data() + at, sizeof(value));
+  return value;
+}
+
+const char* name_of(OusterProfile profile) {
+  switch (profile) {
+    case OusterProfile::kLegacy:
+      return "LEGACY";
+    case OusterProfile::kRng15:
+      return "RNG15_RFL8_NIR8";
+    case OusterProfile::kRng19:
+      return "RNG19_RFL8_SIG16_NIR16";
+    case OusterProfile::kRng19Dual:
+      break;
+  }
+  return "RNG19_RFL8_SIG16_NIR16_DUAL, the first of two returns";
+}
+
+struct Pixel {
+  double range_m = 0;
+  float reflectivity = 0;
+};
+
+Pixel pixel_at(std::string_view bytes, OusterProfile profile, std::size_t at) {
+  constexpr double kMillimetres = 1e-3;
+  const auto word = get<std::uint32_t>(bytes, at);
+  const auto byte = [&](std::size_t offset) { return static_cast<float>(get<std::uint8_t>(bytes, at + offset)); };
+  switch (profile) {
+    case OusterProfile::kLegacy:
+      return {(word & 0xFFFFF) * kMillimetres, static_cast<float>(get<std::uint16_t>(bytes, at + 4))};
+    case OusterProfile::kRng15:
+      return {(word & 0x7FFF) * 8 * kMillimetres, byte(2)};
+    case OusterProfile::kRng19:
+      return {(word & 0x7FFFF) * kMillimetres, byte(4)};
+    case OusterProfile::kRng19Dual:
+      break;
+  }
+  return {(word & 0x7FFFF) * kMillimetres, byte(3)};
+}
+
+class OusterDecoder final : public PacketDecoder {
+ public:
+  explicit OusterDecoder(OusterMetadata metadata)
+      : metadata_(std::move(metadata)),
+        layout_(ouster_layout(metadata_.profile)),
+        packet_bytes_(ouster_packet_bytes(metadata_)),
+        clock_(0) {}
+
+  std::string description() const override {
+    const std::string product = metadata_.product.empty() ? "" : " " + metadata_.product;
+    return "Ouster" + product + ", " + name_of(metadata_.profile);
+  }
+  std::size_t clock_resets() const override { return clock_.resets(); }
+  bool accepts(std::string_view payload) const override { return payload.size() == packet_bytes_; }
+
+  void take(std::string_view payload, std::int64_t received_ns, std::deque<DecodedSweep>& done) override {
+    const std::size_t column_bytes = layout_.column_bytes(metadata_.pixels());
+    for (std::size_t i = 0; i < metadata_.columns_per_packet; ++i) {
+      const std::string_view column = payload.substr(layout_.packet_header + i * column_bytes, column_bytes);
+      const bool legacy = metadata_.profile == OusterProfile::kLegacy;
+      const auto frame = legacy ? get<std::uint16_t>(column, 10) : get<std::uint16_t>(payload, 2);
+      const bool valid = legacy ? get<std::uint32_t>(column, column_bytes - 4) == 0xFFFFFFFF
+                                : (get<std::uint16_t>(column, 10) & 1) != 0;
+      if (!valid) continue;
+      begin_frame(frame, done);
+      const std::int64_t sensor_ns =
+          static_cast<std::int64_t>(get<std::uint64_t>(column, 0) & (~std::uint64_t{0} >> 1));
+      add_column(column, clock_.stamp_ns(sensor_ns, received_ns));
+    }
+  }
+
+  void finish(std::deque<DecodedSweep>& done) override { end_frame(done); }
+
+ private:
+  void begin_frame(std::uint16_t frame, std::deque<DecodedSweep>& done) {
+    // Nothing has more columns than a frame: a counter that stands still must not gather the whole recording.
+    if (frame_ && *frame_ == frame && columns_ < metadata_.columns_per_frame) return;
+    end_frame(done);
+    frame_ = frame;
+  }
+
+  void end_frame(std::deque<DecodedSweep>& done) {
+    // Some columns may be lost on the way.
+    if (!sweep_.empty()) done.push_back({sweep_.take(), columns_ * 10 >= metadata_.columns_sent * 9});
+    columns_ = 0;
+  }
+
+  void add_column(std::string_view column, std::int64_t time_ns) {
+    const std::size_t id = get<std::uint16_t>(column, 8);
+    if (id >= metadata_.columns_per_frame) return;
+    ++columns_;
+    const double turned =
+        2 * std::numbers::pi * (1 - static_cast<double>(id) / static_cast<double>(metadata_.columns_per_frame));
+    for (std::size_t k = 0; k < metadata_.pixels(); ++k) {
+      const Pixel pixel = pixel_at(column, metadata_.profile, layout_.column_header + k * layout_.pixel);
+      if (pixel.range_m <= metadata_.beam_origin_m) continue;  // 0: no return
+      // The uppermost beam is the first; rings count from below.
+      sweep_.add(point_of(pixel.range_m, turned, k), pixel.reflectivity,
+                 static_cast<std::uint16_t>(metadata_.pixels() - 1 - k), time_ns);
+    }
+  }
+
+  // The range is from the axis to the beam's origin and on to the target.
+  Eigen::Vector3f point_of(double range_m, double turned, std::size_t beam) const {
+    const double origin = metadata_.beam_origin_m;
+    const double azimuth = turned - metadata_.azimuths_rad[beam];
+    const double across = (range_m - origin) * std::cos(metadata_.elevations_rad[beam]);
+    const Eigen::Vector4d point(across * std::cos(azimuth) + origin * std::cos(turned),
+                                across * std::sin(azimuth) + origin * std::sin(turned),
+                                (range_m - origin) * std::sin(metadata_.elevations_rad[beam]), 1);
+    return (metadata_.T_sensor_lidar * point).head<3>().cast<float>();
+  }
+
+  OusterMetadata metadata_;
+  OusterLayout layout_;
+  std::size_t packet_bytes_;
+  PacketClock clock_;
+  GrowingSweep sweep_;
+  std::optional<std::uint16_t> frame_;
+  std::size_t columns_ = 0;  // of the frame so far
+};
+
+}  // namespace
+
+std::unique_ptr<PacketDecoder> ouster_decoder(OusterMetadata metadata) {
+  return std::make_unique<OusterDecoder>(std::move(metadata));
+}
+
+}  // namespace rilo::detail

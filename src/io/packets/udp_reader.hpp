@@ -1,0 +1,68 @@
+// UDP datagrams of a pcap or pcapng recording.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct pcap;
+
+namespace rilo::detail {
+
+struct Datagram {
+  std::int64_t received_ns = 0;
+  std::uint16_t port = 0;    ///< destination
+  std::string_view payload;  ///< valid until the next call
+};
+
+/// Reads with libpcap. Ethernet (VLANs too), Linux cooked, loopback and raw captures; IPv4, put together again when it
+/// was fragmented, and unfragmented IPv6.
+class UdpReader {
+ public:
+  /// @throws IoError when the file is no capture, or of a link type that we do not know.
+  explicit UdpReader(std::filesystem::path file);
+  ~UdpReader();
+  UdpReader(const UdpReader&) = delete;
+  UdpReader& operator=(const UdpReader&) = delete;
+
+  /// The next datagram, or nothing at the end. A capture that is cut off ends there, with a warning.
+  std::optional<Datagram> next();
+
+  const std::filesystem::path& file() const { return file_; }
+  /// Sentences for the user.
+  std::vector<std::string> warnings() const;
+
+ private:
+  struct Fragments {
+    std::uint64_t key = 0;
+    std::uint32_t key_more = 0;
+    std::string bytes;
+    std::size_t received = 0;
+    std::optional<std::size_t> total;
+  };
+  struct Close {
+    void operator()(pcap* capture) const;
+  };
+
+  std::optional<std::string_view> network_layer(std::string_view frame) const;
+  std::optional<Datagram> from_ip(std::string_view packet);
+  std::optional<std::string_view> put_together(std::string_view packet, std::size_t header, std::size_t offset,
+                                               bool more);
+  static std::optional<Datagram> from_udp(std::string_view udp);
+
+  std::filesystem::path file_;
+  std::unique_ptr<pcap, Close> capture_;
+  int link_ = 0;
+  std::deque<Fragments> fragments_;
+  std::string whole_;  // the datagram put together last
+  std::size_t cut_packets_ = 0;
+  std::string end_;  // why the capture ended early
+};
+
+}  // namespace rilo::detail

@@ -1,0 +1,133 @@
+// One turn of a Velodyne after the other.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <utility>
+
+#include "io/packets/velodyne.hpp"
+
+namespace rilo::detail {
+namespace {
+
+constexpr std::size_t kBlocks = 12;
+constexpr std::size_t kBlockBytes = 100;
+constexpr std::size_t kLasersABlock = 32;
+constexpr int kTurn = 36000;  // hundredths of a degree
+constexpr unsigned char kDual = 0x39;
+
+std::uint16_t get16(std::string_view bytes, std::size_t at) {
+  std::uint16_t value = 0;
+  std::memcpy(&value, bytes.data() + at, sizeof(value));
+  return value;
+}
+
+class VelodyneDecoder final : public PacketDecoder {
+ public:
+  explicit VelodyneDecoder(VelodyneModel model) : model_(std::move(model)), clock_(kHourNs) {}
+
+  std::string description() const override {
+    return "Velodyne " + model_.name + (dual_ ? ", of two returns the last" : "");
+  }
+  std::size_t clock_resets() const override { return clock_.resets(); }
+
+  bool accepts(std::string_view payload) const override {
+    if (payload.size() != kVelodynePacket) return false;
+    const std::string_view flag = payload.substr(0, 2);
+    return flag == "\xFF\xEE" || (model_.two_banks && flag == "\xFF\xDD");
+  }
+
+  void take(std::string_view payload, std::int64_t received_ns, std::deque<DecodedSweep>& done) override {
+    std::uint32_t hour_us = 0;
+    std::memcpy(&hour_us, payload.data() + kBlocks * kBlockBytes, sizeof(hour_us));
+    const std::int64_t stamp_ns = clock_.stamp_ns(std::int64_t{hour_us} * 1000, received_ns);
+    dual_ = !model_.two_banks && static_cast<unsigned char>(payload[kVelodynePacket - 2]) == kDual;
+    const std::size_t group = dual_ || model_.two_banks ? 2 : 1;  // blocks of the same firing
+    for (std::size_t block = 0; block < kBlocks; ++block) {
+      // Of two returns, the first block of a pair has the last one, the second the strongest other.
+      if (dual_ && block % 2 == 1) continue;
+      const std::string_view bytes = payload.substr(block * kBlockBytes, kBlockBytes);
+      const std::string_view flag = bytes.substr(0, 2);
+      if (flag != "\xFF\xEE" && flag != "\xFF\xDD") continue;
+      const std::size_t firings_before = block / group * model_.firings_a_block;
+      const int azimuth = get16(bytes, 2) % kTurn;
+      find_rate(payload, block, group, azimuth);
+      look_for_the_rear(azimuth, done);
+      add_block(bytes, flag == "\xFF\xDD", azimuth, stamp_ns, static_cast<double>(firings_before));
+    }
+  }
+
+  void finish(std::deque<DecodedSweep>& done) override {
+    if (!sweep_.empty()) done.push_back({sweep_.take(), false});
+  }
+
+ private:
+  static constexpr std::int64_t kHourNs = 3'600'000'000'000;
+
+  // Hundredths of a degree a microsecond, from this block to the next.
+  void find_rate(std::string_view payload, std::size_t block, std::size_t group, int azimuth) {
+    constexpr int kMostAStep = 300;  // 3°: more means that packets are missing or the motor starts
+    if (block + group >= kBlocks) return;
+    const int next = get16(payload, (block + group) * kBlockBytes + 2) % kTurn;
+    const int step = (next - azimuth + kTurn) % kTurn;
+    if (step > kMostAStep) return;
+    rate_ = step / (model_.firing_us * static_cast<double>(model_.firings_a_block));
+  }
+
+  // A turn ends straight behind.
+  void look_for_the_rear(int azimuth, std::deque<DecodedSweep>& done) {
+    constexpr std::size_t kMostPoints = std::size_t{1} << 20;  // a motor that stands still gives no turn
+    const int since_rear = (azimuth + kTurn / 2) % kTurn;
+    constexpr int kJustBehind = 200;
+    if (last_since_rear_ < 0) whole_ = since_rear <= kJustBehind;
+    const bool at_rear = last_since_rear_ >= 0 && since_rear < last_since_rear_ - kTurn / 2;
+    if (at_rear || sweep_.size() > kMostPoints) {
+      if (!sweep_.empty()) done.push_back({sweep_.take(), whole_ && at_rear});
+      whole_ = at_rear;
+    }
+    last_since_rear_ = since_rear;
+  }
+
+  void add_block(std::string_view bytes, bool lower, int azimuth, std::int64_t stamp_ns, double first_firing) {
+    for (std::size_t k = 0; k < kLasersABlock; ++k) {
+      const std::uint16_t distance = get16(bytes, 4 + 3 * k);
+      if (distance == 0) continue;
+      const std::size_t in_block = k / model_.lasers.size();  // the second firing of 16 lasers
+      const std::size_t index = k % model_.lasers.size() + (model_.two_banks && lower ? kLasersABlock : 0);
+      const VelodyneLaser& laser = model_.lasers[index];
+      const double block_us = static_cast<double>(in_block) * model_.firing_us + laser.fires_after_us;
+      const double angle = (azimuth + rate_ * block_us) * (std::numbers::pi / 18000) + laser.azimuth_rad;
+      const double time_us = first_firing * model_.firing_us + block_us;
+      sweep_.add(point_of(laser, distance * model_.unit_m + laser.distance_offset_m, angle),
+                 static_cast<float>(static_cast<unsigned char>(bytes[6 + 3 * k])), laser.ring,
+                 stamp_ns + std::llround(time_us * 1000));
+    }
+  }
+
+  // x forward, y left, z up; the angle turns clockwise from straight ahead.
+  static Eigen::Vector3f point_of(const VelodyneLaser& laser, double distance_m, double angle) {
+    const double cos_elevation = std::cos(laser.elevation_rad);
+    const double sin_elevation = std::sin(laser.elevation_rad);
+    const double across = distance_m * cos_elevation - laser.vertical_offset_m * sin_elevation;
+    const double forward = across * std::cos(angle) + laser.horizontal_offset_m * std::sin(angle);
+    const double right = across * std::sin(angle) - laser.horizontal_offset_m * std::cos(angle);
+    const double up = distance_m * sin_elevation + laser.vertical_offset_m * cos_elevation;
+    return {static_cast<float>(forward), static_cast<float>(-right), static_cast<float>(up)};
+  }
+
+  VelodyneModel model_;
+  PacketClock clock_;
+  GrowingSweep sweep_;
+  double rate_ = 0;
+  int last_since_rear_ = -1;
+  bool whole_ = false;  // the sweep began straight behind
+  bool dual_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<PacketDecoder> velodyne_decoder(VelodyneModel model) {
+  return std::make_unique<VelodyneDecoder>(std::move(model));
+}
+
+}  // namespace rilo::detail

@@ -1,0 +1,68 @@
+// The records of an MCAP file that we look into. The format: https://mcap.dev/spec
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/byte_cursor.hpp"
+
+namespace rilo::detail::mcap {
+
+inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
+
+enum class Opcode : std::uint8_t {
+  kHeader = 0x01,
+  kFooter = 0x02,
+  kSchema = 0x03,
+  kChannel = 0x04,
+  kMessage = 0x05,
+  kChunk = 0x06,
+  kChunkIndex = 0x08,
+  kStatistics = 0x0B,
+  kDataEnd = 0x0F,
+};
+
+struct Channel {
+  std::uint16_t id = 0;
+  std::uint16_t schema_id = 0;
+  std::string topic;
+  std::string encoding;
+};
+
+/// What all channels of a file are, as far as records told.
+struct Channels {
+  std::map<std::uint16_t, std::string> schemas;  ///< id → name
+  std::map<std::uint16_t, Channel> channels;
+
+  void add_schema(ByteCursor cursor);
+  void add_channel(ByteCursor cursor);
+};
+
+struct MessageHeader {
+  static constexpr std::size_t kBytes = 22;
+  std::uint16_t channel_id = 0;
+  std::int64_t log_time_ns = 0;
+};
+MessageHeader take_message_header(ByteCursor& cursor);
+
+struct ChunkHeader {
+  std::uint64_t unpacked_bytes = 0;
+  std::uint32_t crc = 0;  ///< of the unpacked bytes; 0: none
+  std::string compression;
+};
+ChunkHeader take_chunk_header(ByteCursor& cursor);
+
+struct ChunkIndex {
+  std::uint64_t offset = 0;             ///< of the chunk's record
+  std::vector<std::uint16_t> channels;  ///< that have messages in it; empty: unknown
+};
+ChunkIndex take_chunk_index(ByteCursor cursor);
+
+/// Messages by channel. Empty when the file does not say.
+std::map<std::uint16_t, std::uint64_t> take_message_counts(ByteCursor cursor);
+
+}  // namespace rilo::detail::mcap

@@ -1,0 +1,195 @@
+#include "rilo/io/point_cloud2.hpp"
+
+#include <array>
+#include <cstring>
+#include <optional>
+
+#include "io/byte_cursor.hpp"
+#include "io/cloud_columns.hpp"
+#include "io/text.hpp"
+#include "rilo/io/io_error.hpp"
+
+namespace rilo {
+namespace detail {
+namespace {
+
+constexpr std::int64_t kNanoseconds = 1'000'000'000;
+
+// The values of a message in their order; the encodings differ in alignment and in the end of strings.
+class MessageCursor {
+ public:
+  MessageCursor(std::string_view bytes, MessageEncoding encoding, const BytesOrigin& origin)
+      : cdr_(encoding == MessageEncoding::kCdr),
+        cursor_(cdr_ ? after_encapsulation(bytes, origin) : bytes, origin, cdr_ ? kEncapsulation : 0) {}
+
+  template <typename T>
+  T take(const char* what) {
+    if (cdr_) cursor_.align(sizeof(T));
+    return cursor_.take<T>(what);
+  }
+  std::string_view take_sequence(const char* what) {
+    const auto size = take<std::uint32_t>(what);
+    return cursor_.take_bytes(size, what);
+  }
+  std::string take_string(const char* what) {
+    std::string_view text = take_sequence(what);
+    if (cdr_ && !text.empty() && text.back() == '\0') text.remove_suffix(1);
+    return std::string(text);
+  }
+  const ByteCursor& place() const { return cursor_; }
+
+ private:
+  static constexpr std::size_t kEncapsulation = 4;
+
+  // CDR and, without members of 8 bytes the same, XCDR2; the low bit says little-endian.
+  static std::string_view after_encapsulation(std::string_view bytes, const BytesOrigin& origin) {
+    ByteCursor cursor(bytes, origin);
+    const std::string_view kind = cursor.take_bytes(kEncapsulation, "encapsulation");
+    if (kind[0] != 0 || (kind[1] != 1 && kind[1] != 7)) {
+      throw IoError({origin.file, byte_position(origin, 0),
+                     "an encapsulation of " + std::to_string(static_cast<unsigned char>(kind[0])) + " " +
+                         std::to_string(static_cast<unsigned char>(kind[1])),
+                     "0 1 (CDR, little-endian)", "Record on a little-endian machine, or check the message's type"});
+    }
+    return bytes.substr(kEncapsulation);
+  }
+
+  bool cdr_;
+  ByteCursor cursor_;
+};
+
+std::vector<PointField> take_fields(MessageCursor& cursor) {
+  constexpr std::size_t kLeastFieldBytes = 13;  // an empty name, offset, datatype, count
+  const auto count = cursor.take<std::uint32_t>("fields");
+  if (count > cursor.place().left() / kLeastFieldBytes) {
+    throw IoError({cursor.place().origin().file, cursor.place().position(), std::to_string(count) + " fields",
+                   "at most what the " + std::to_string(cursor.place().left()) + " bytes that follow can hold",
+                   "The message is damaged, or is no PointCloud2"});
+  }
+  std::vector<PointField> fields(count);
+  for (PointField& field : fields) {
+    field.name = cursor.take_string("field name");
+    field.offset = cursor.take<std::uint32_t>("field offset");
+    field.datatype = cursor.take<std::uint8_t>("field datatype");
+    field.count = cursor.take<std::uint32_t>("field count");
+  }
+  return fields;
+}
+
+std::optional<ScalarType> scalar_type(std::uint8_t datatype) {
+  constexpr std::array<ScalarType, 8> kTypes{ScalarType::kInt8,    ScalarType::kUint8,  ScalarType::kInt16,
+                                             ScalarType::kUint16,  ScalarType::kInt32,  ScalarType::kUint32,
+                                             ScalarType::kFloat32, ScalarType::kFloat64};
+  if (datatype < 1 || datatype > kTypes.size()) return std::nullopt;
+  return kTypes[datatype - 1U];
+}
+
+[[noreturn]] void refuse(const BytesOrigin& origin, const std::string& found, const std::string& expected,
+                         const char* remedy = "The driver wrote a wrong message: correct or record it again") {
+  throw IoError({origin.file, origin.part, found, expected, remedy});
+}
+
+// The points without what pads the rows.
+struct PointBytes {
+  std::string_view in_message;
+  std::string copy;  // used when the rows are padded
+  std::size_t count = 0;
+
+  const char* data() const { return copy.empty() ? in_message.data() : copy.data(); }
+};
+
+std::string shape_of(const PointCloud2& m) {
+  return "width " + std::to_string(m.width) + ", height " + std::to_string(m.height) + ", point_step " +
+         std::to_string(m.point_step) + ", row_step " + std::to_string(m.row_step) + " and " +
+         std::to_string(m.data.size()) + " bytes of data";
+}
+
+PointBytes points_of(const PointCloud2& m, const BytesOrigin& origin) {
+  PointBytes points;
+  const std::uint64_t row_bytes = std::uint64_t{m.width} * m.point_step;
+  std::uint64_t whole = 0;
+  const bool too_much = __builtin_mul_overflow(row_bytes, std::uint64_t{m.height}, &whole);
+  const std::uint64_t count = std::uint64_t{m.width} * m.height;
+  if (count == 0) return points;
+  if (m.point_step == 0) refuse(origin, shape_of(m), "a point_step above 0");
+  points.count = static_cast<std::size_t>(count);
+  // Some drivers leave row_step unset: without padding it is not needed.
+  if (!too_much && (m.height == 1 || m.row_step == row_bytes || whole == m.data.size()) && whole <= m.data.size()) {
+    points.in_message = m.data.substr(0, static_cast<std::size_t>(whole));
+    return points;
+  }
+  const std::uint64_t needed = std::uint64_t{m.row_step} * (m.height - 1) + row_bytes;
+  if (too_much || m.row_step < row_bytes || needed > m.data.size()) {
+    refuse(origin, shape_of(m), "data for all points, in rows of at least width · point_step bytes");
+  }
+  points.copy.reserve(static_cast<std::size_t>(whole));
+  for (std::uint64_t row = 0; row < m.height; ++row) {
+    points.copy += m.data.substr(static_cast<std::size_t>(row * m.row_step), static_cast<std::size_t>(row_bytes));
+  }
+  return points;
+}
+
+void check_inside(const PointCloud2& m, const PointField& field, const BytesOrigin& origin) {
+  const std::uint64_t end = std::uint64_t{field.offset} + size_of(*scalar_type(field.datatype));
+  if (end <= m.point_step) return;
+  refuse(origin,
+         "field " + in_quotes(field.name) + " at byte " + std::to_string(field.offset) + " to " + std::to_string(end) +
+             " of a point",
+         "an end within point_step " + std::to_string(m.point_step));
+}
+
+}  // namespace
+}  // namespace detail
+
+PointCloud2 parse_point_cloud2(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
+                               const std::string& part) {
+  const detail::BytesOrigin origin{file, part};
+  detail::MessageCursor cursor(bytes, encoding, origin);
+  PointCloud2 message;
+  if (encoding == MessageEncoding::kRos1) cursor.take<std::uint32_t>("sequence number");
+  // ROS 1: unsigned seconds, ROS 2: signed.
+  const auto seconds = cursor.take<std::uint32_t>("stamp");
+  const std::int64_t whole =
+      encoding == MessageEncoding::kRos1 ? std::int64_t{seconds} : std::int64_t{static_cast<std::int32_t>(seconds)};
+  message.stamp_ns = whole * detail::kNanoseconds + cursor.take<std::uint32_t>("stamp");
+  message.frame_id = cursor.take_string("frame_id");
+  message.height = cursor.take<std::uint32_t>("height");
+  message.width = cursor.take<std::uint32_t>("width");
+  message.fields = detail::take_fields(cursor);
+  message.is_bigendian = cursor.take<std::uint8_t>("is_bigendian") != 0;
+  message.point_step = cursor.take<std::uint32_t>("point_step");
+  message.row_step = cursor.take<std::uint32_t>("row_step");
+  message.data = cursor.take_sequence("data");
+  message.is_dense = cursor.take<std::uint8_t>("is_dense") != 0;
+  return message;
+}
+
+RawCloud columns_of(const PointCloud2& message, const std::string& time_field, const std::filesystem::path& file,
+                    const std::string& part) {
+  const detail::BytesOrigin origin{file, part};
+  if (message.is_bigendian) {
+    detail::refuse(origin, "is_bigendian true", "little-endian points",
+                   "Convert the recording on the machine it is from");
+  }
+  const detail::PointBytes points = detail::points_of(message, origin);
+  // Fields of a type that nobody knows cannot be used and do no harm.
+  std::vector<detail::Field> fields;
+  std::vector<const PointField*> described;
+  for (const PointField& field : message.fields) {
+    const auto type = detail::scalar_type(field.datatype);
+    if (!type) continue;
+    fields.push_back({field.name, *type, field.count});
+    described.push_back(&field);
+  }
+  const detail::FieldRoles roles = detail::find_roles(fields, time_field, file);
+  if (points.count == 0)
+    return detail::assemble_cloud(fields, roles, std::vector<detail::ColumnView>(fields.size()), 0);
+  std::vector<detail::ColumnView> columns(fields.size());
+  for (const std::size_t i : roles.all()) {
+    detail::check_inside(message, *described[i], origin);
+    columns[i] = {points.data() + described[i]->offset, message.point_step, fields[i].type, false};
+  }
+  return detail::assemble_cloud(fields, roles, columns, points.count);
+}
+
+}  // namespace rilo

@@ -1,0 +1,135 @@
+#include "io/ros/recording.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "rilo/io/io_error.hpp"
+
+namespace rilo::detail {
+
+bool is_point_cloud(const RecordedTopic& topic) {
+  const bool type = topic.type == "sensor_msgs/PointCloud2" || topic.type == "sensor_msgs/msg/PointCloud2";
+  return type && (topic.encoding == "ros1" || topic.encoding == "cdr");
+}
+
+MessageEncoding encoding_of(const RecordedTopic& topic) {
+  return topic.encoding == "ros1" ? MessageEncoding::kRos1 : MessageEncoding::kCdr;
+}
+
+std::size_t Recording::skip(std::size_t count) {
+  std::size_t skipped = 0;
+  while (skipped < count) {
+    try {
+      if (!next()) break;
+    } catch (const IoError&) {
+      // Nobody wants this message: that it is damaged does not matter.
+    }
+    ++skipped;
+  }
+  return skipped;
+}
+
+namespace {
+
+// Split recordings. Topics and counts of all files are known from the start.
+class RecordingsInTurn final : public Recording {
+ public:
+  RecordingsInTurn(std::vector<std::filesystem::path> files, OpenRecording open)
+      : files_(std::move(files)), open_(std::move(open)) {
+    for (const auto& file : files_) {
+      current_ = open_(file);
+      add_topics(current_->topics());
+      keep_warnings();
+    }
+    format_ = current_->format();
+    if (files_.size() > 1) format_ += ", " + std::to_string(files_.size()) + " files";
+    if (files_.size() > 1) current_.reset();  // a single one stays open: it may have been unpacked for that
+  }
+
+  std::string format() const override { return format_; }
+  const std::vector<RecordedTopic>& topics() const override { return topics_; }
+
+  void select(const std::string& topic) override {
+    topic_ = topic;
+    place_ = 0;
+    if (files_.size() > 1) current_.reset();
+    if (!current_) return;
+    current_->select(topic);
+    place_ = 1;
+  }
+
+  std::optional<RecordedMessage> next() override {
+    while (current_ || open_next()) {
+      if (auto message = current_->next()) return message;
+      keep_warnings();
+      current_.reset();
+    }
+    return std::nullopt;
+  }
+
+  std::size_t skip(std::size_t count) override {
+    std::size_t skipped = 0;
+    while (skipped < count && (current_ || open_next())) {
+      skipped += current_->skip(count - skipped);
+      if (skipped < count) current_.reset();
+    }
+    return skipped;
+  }
+
+  std::vector<std::string> warnings() const override { return warnings_; }
+
+ private:
+  void add_topics(const std::vector<RecordedTopic>& topics) {
+    for (const RecordedTopic& topic : topics) {
+      const auto same = [&](const RecordedTopic& known) { return known.name == topic.name; };
+      const auto known = std::find_if(topics_.begin(), topics_.end(), same);
+      if (known == topics_.end()) {
+        topics_.push_back(topic);
+      } else if (known->messages && topic.messages) {
+        *known->messages += *topic.messages;
+      } else {
+        known->messages.reset();
+      }
+    }
+  }
+
+  // A file may lack the topic.
+  bool open_next() {
+    while (place_ < files_.size()) {
+      current_ = open_(files_[place_++]);
+      const auto& topics = current_->topics();
+      const auto wanted = [&](const RecordedTopic& topic) { return topic.name == topic_; };
+      if (std::any_of(topics.begin(), topics.end(), wanted)) {
+        current_->select(topic_);
+        return true;
+      }
+      current_.reset();
+    }
+    return false;
+  }
+
+  void keep_warnings() {
+    for (std::string& warning : current_->warnings()) {
+      if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) {
+        warnings_.push_back(std::move(warning));
+      }
+    }
+  }
+
+  std::vector<std::filesystem::path> files_;
+  OpenRecording open_;
+  std::string format_;
+  std::vector<RecordedTopic> topics_;
+  std::vector<std::string> warnings_;
+  std::string topic_;
+  std::unique_ptr<Recording> current_;
+  std::size_t place_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Recording> open_in_turn(std::vector<std::filesystem::path> files, const OpenRecording& open) {
+  return std::make_unique<RecordingsInTurn>(std::move(files), open);
+}
+
+}  // namespace rilo::detail

@@ -1,0 +1,175 @@
+// A rosbag2 folder: metadata.yaml says which files there are and how they are compressed.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <yaml-cpp/yaml.h>
+
+#include "io/file_bytes.hpp"
+#include "io/ros/recording.hpp"
+#include "io/ros/unpack.hpp"
+#include "io/scan_listing.hpp"
+#include "io/text.hpp"
+#include "rilo/io/io_error.hpp"
+
+namespace rilo::detail {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kLargestMetadata = std::size_t{1} << 24;
+
+struct Metadata {
+  std::vector<fs::path> files;
+  bool messages_compressed = false;
+};
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& position, const std::string& found,
+                         const std::string& expected) {
+  throw IoError(
+      {file, position, found, expected,
+       "Write metadata.yaml again (ros2 bag reindex), or move it away to read the folder's files as they are"});
+}
+
+std::string text_of(const YAML::Node& node, const char* key) {
+  const YAML::Node value = node[key];
+  return value && value.IsScalar() ? value.Scalar() : "";
+}
+
+// Old versions wrote the path as it was seen by the recorder: the name in this folder is what counts.
+fs::path find_file(const fs::path& folder, const fs::path& metadata, const std::string& written) {
+  const fs::path name = fs::path(written).filename();
+  std::error_code ignored;
+  if (!name.empty() && fs::exists(folder / name, ignored)) return folder / name;
+  throw IoError({metadata, "", "the file " + in_quotes(written) + ", which is not in the folder",
+                 "all files of the bag", "Copy the missing file, or move metadata.yaml away to read what is there"});
+}
+
+Metadata parse_metadata(const fs::path& folder, const fs::path& file) {
+  const FileBytes bytes = read_file(file, kLargestMetadata);
+  try {
+    const YAML::Node info = YAML::Load(std::string(bytes.view()))["rosbag2_bagfile_information"];
+    if (!info || !info.IsMap()) refuse(file, "", "no rosbag2_bagfile_information", "the metadata of a rosbag2");
+    Metadata metadata;
+    const std::string mode = lower_case(text_of(info, "compression_mode"));
+    const std::string format = lower_case(text_of(info, "compression_format"));
+    metadata.messages_compressed = mode == "message";
+    if (!mode.empty() && mode != "none" && format != "zstd") {
+      refuse(file, "compression_format", in_quotes(format), "zstd");
+    }
+    const YAML::Node paths = info["relative_file_paths"];
+    if (!paths || !paths.IsSequence() || paths.size() == 0) {
+      refuse(file, "relative_file_paths", "no list of files", "the files of the bag");
+    }
+    for (const YAML::Node& path : paths) {
+      if (!path.IsScalar()) refuse(file, "relative_file_paths", "an entry that is no name", "the files of the bag");
+      metadata.files.push_back(find_file(folder, file, path.Scalar()));
+    }
+    return metadata;
+  } catch (const YAML::Exception& error) {
+    refuse(file, at_line(static_cast<std::size_t>(error.mark.line + 1)), "text that is no YAML: " + error.msg,
+           "the metadata of a rosbag2");
+  }
+}
+
+bool has_suffix(const fs::path& file, std::string_view suffix) {
+  const std::string name = lower_case(file.filename().string());
+  return name.size() > suffix.size() && name.ends_with(suffix);
+}
+
+bool is_storage(const fs::path& file) {
+  return has_suffix(file, ".db3") || has_suffix(file, ".mcap") || has_suffix(file, ".db3.zstd") ||
+         has_suffix(file, ".mcap.zstd");
+}
+
+// Where the recorder was killed there is no metadata.yaml: the files speak for themselves.
+std::vector<fs::path> files_without_metadata(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (is_storage(entry->path())) files.push_back(entry->path());
+  }
+  if (files.empty()) refuse(folder, "", "no .db3 and no .mcap", "the files of a rosbag2");
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+std::unique_ptr<Recording> open_storage(const fs::path& file) {
+  return has_suffix(file, ".mcap") ? open_mcap(file) : open_db3(file);
+}
+
+// What a recording is wrapped into by rosbag2: everything goes through, unless a child says otherwise.
+class Wrapped : public Recording {
+ public:
+  explicit Wrapped(std::unique_ptr<Recording> inner) : inner_(std::move(inner)) {}
+  const std::vector<RecordedTopic>& topics() const override { return inner_->topics(); }
+  void select(const std::string& topic) override { inner_->select(topic); }
+  std::optional<RecordedMessage> next() override { return inner_->next(); }
+  std::size_t skip(std::size_t count) override { return inner_->skip(count); }
+  std::vector<std::string> warnings() const override { return inner_->warnings(); }
+
+ protected:
+  std::unique_ptr<Recording> inner_;
+};
+
+class PackedMessages final : public Wrapped {
+ public:
+  using Wrapped::Wrapped;
+  std::string format() const override { return inner_->format() + ", messages in zstd"; }
+  std::optional<RecordedMessage> next() override {
+    auto message = inner_->next();
+    if (!message) return message;
+    unpack_zstd(message->bytes, kLargestUnpacked, {message->file, "a message"}, unpacked_);
+    message->bytes = {unpacked_.data(), unpacked_.size()};
+    return message;
+  }
+
+ private:
+  std::vector<char> unpacked_;
+};
+
+// A packed file is unpacked onto the disk; messages name the packed one.
+class PackedFile final : public Wrapped {
+ public:
+  PackedFile(std::unique_ptr<TemporaryFile> unpacked, std::filesystem::path packed)
+      : Wrapped(open_storage(unpacked->path())), unpacked_(std::move(unpacked)), packed_(std::move(packed)) {}
+  std::string format() const override { return inner_->format() + ", file in zstd"; }
+  std::optional<RecordedMessage> next() override {
+    auto message = inner_->next();
+    if (message) message->file = packed_;
+    return message;
+  }
+
+ private:
+  std::unique_ptr<TemporaryFile> unpacked_;
+  std::filesystem::path packed_;
+};
+
+std::unique_ptr<Recording> open_maybe_packed(const fs::path& file) {
+  if (!has_suffix(file, ".zstd")) return open_storage(file);
+  auto unpacked = std::make_unique<TemporaryFile>(file.stem().extension().string());
+  unpack_zstd_file(file, unpacked->path());
+  return std::make_unique<PackedFile>(std::move(unpacked), file);
+}
+
+}  // namespace
+
+std::unique_ptr<Recording> open_rosbag2(const fs::path& folder) {
+  const fs::path file = folder / "metadata.yaml";
+  std::error_code ignored;
+  Metadata metadata;
+  if (fs::exists(file, ignored)) {
+    metadata = parse_metadata(folder, file);
+  } else {
+    metadata.files = files_without_metadata(folder);
+  }
+  auto recording = open_in_turn(std::move(metadata.files), open_maybe_packed);
+  if (metadata.messages_compressed) return std::make_unique<PackedMessages>(std::move(recording));
+  return recording;
+}
+
+}  // namespace rilo::detail

@@ -1,0 +1,42 @@
+// Per-point times of the sweeps of one source, as its options say.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "rilo/io/point_times.hpp"
+#include "rilo/io/source_options.hpp"
+
+namespace rilo::detail {
+
+class SweepTiming {
+ public:
+  /// `period_s` is the one for azimuth times.
+  SweepTiming(const SourceOptions& options, const PointTimeHints& hints, double period_s);
+
+  /// Before the first sweep: the data promise times of that description, or none.
+  void promise(const std::optional<std::string>& times);
+
+  /// Fills sweep.times_s (and the stamp, when the times count from an epoch) from `times`, the azimuth, or not at all.
+  /// `forward_after_s`: from the stamp to the instant when the sensor faces forward, for azimuth times.
+  /// @throws IoError when the times make no sense; `file` is for its message.
+  void apply(const std::optional<RawTimes>& times, const std::filesystem::path& file, double forward_after_s,
+             Sweep& sweep);
+
+  bool has_times() const { return has_times_; }
+  const std::string& description() const { return description_; }
+  /// The points' times count from an epoch: they set the stamps.
+  bool sets_stamps() const;
+
+ private:
+  PointTimes from_;
+  SpinDirection spin_;
+  double period_s_;
+  PointTimeDecoder decoder_;
+  bool has_times_ = false;
+  std::string description_ = "none";
+};
+
+}  // namespace rilo::detail

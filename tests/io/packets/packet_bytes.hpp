@@ -1,0 +1,77 @@
+// Captures of sensors, made byte by byte.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/ros/ros_bytes.hpp"
+
+namespace rilo::test {
+
+/// A pcap file with nanoseconds.
+class Capture {
+ public:
+  explicit Capture(std::uint32_t link = 1) {
+    bytes_.put(std::uint32_t{0xA1B23C4D}).put(std::uint16_t{2}).put(std::uint16_t{4}).put(std::int32_t{0});
+    bytes_.put(std::uint32_t{0}).put(std::uint32_t{65535}).put(link);
+  }
+
+  /// A frame as it is.
+  Capture& frame(std::int64_t stamp_ns, std::string_view frame) {
+    bytes_.put(static_cast<std::uint32_t>(stamp_ns / 1'000'000'000));
+    bytes_.put(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000));
+    bytes_.put(static_cast<std::uint32_t>(frame.size())).put(static_cast<std::uint32_t>(frame.size()));
+    bytes_.raw(frame);
+    return *this;
+  }
+
+  /// A datagram in one Ethernet frame, or in fragments of at most `mtu` bytes.
+  Capture& udp(std::int64_t stamp_ns, std::uint16_t port, std::string_view payload, std::size_t mtu = 65000) {
+    std::string datagram = big(2000) + big(port) + big(static_cast<std::uint16_t>(payload.size() + 8)) + big(0);
+    datagram += payload;
+    ++identification_;
+    for (std::size_t at = 0; at < datagram.size(); at += mtu) {
+      const std::string_view part = std::string_view(datagram).substr(at, mtu);
+      frame(stamp_ns, ethernet(ipv4(part, at, at + part.size() < datagram.size())));
+    }
+    return *this;
+  }
+
+  static std::string big(std::uint16_t value) {
+    return {static_cast<char>(value >> 8), static_cast<char>(value & 255)};
+  }
+  std::string ipv4(std::string_view part, std::size_t offset, bool more) const {
+    std::string header("\x45\0", 2);
+    header += big(static_cast<std::uint16_t>(20 + part.size())) + big(identification_);
+    header += big(static_cast<std::uint16_t>(offset / 8 + (more ? 0x2000 : 0)));
+    return header + std::string("\x40\x11\0\0\x0A\0\0\1\x0A\0\0\2", 12) + std::string(part);
+  }
+  static std::string ethernet(const std::string& packet, const std::string& vlan = "") {
+    return std::string(12, '\x11') + vlan + std::string("\x08\0", 2) + packet;
+  }
+
+  const std::string& text() const { return bytes_.text; }
+
+ private:
+  Bytes bytes_;
+  std::uint16_t identification_ = 0;
+};
+
+/// A packet of a Velodyne with 12 blocks from `azimuth` (0.01°) on in steps of `step`, all distances the same.
+inline std::string velodyne_packet(int azimuth, int step, std::uint32_t hour_us, std::uint8_t product,
+                                   std::uint16_t distance = 5000, std::uint8_t mode = 0x37) {
+  Bytes bytes;
+  for (int block = 0; block < 12; ++block) {
+    const int of_block = mode == 0x39 ? block / 2 : block;
+    bytes.put(std::uint16_t{0xEEFF}).put(static_cast<std::uint16_t>((azimuth + of_block * step) % 36000));
+    for (int k = 0; k < 32; ++k) {
+      const int shift = mode == 0x39 && block % 2 == 1 ? 1000 : 0;  // the other return is nearer
+      bytes.put(static_cast<std::uint16_t>(distance - shift)).put(static_cast<std::uint8_t>(k));
+    }
+  }
+  return bytes.put(hour_us).put(mode).put(product).text;
+}
+
+}  // namespace rilo::test

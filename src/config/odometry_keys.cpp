@@ -47,6 +47,8 @@ void add_prediction(ConfigKeys& keys, MotionPredictionConfig& prediction, Motion
             "usual change of velocity within 0.1 s, per second");
   keys.real("angular_acceleration_rad_s2", prior.angular_acceleration_rad_s2, 0.01, 1000, "rad/s²",
             "the same of the turn rate");
+  keys.real("unseen_share", prior.unseen_share, 0.001, 1, "",
+            "share of both that counts after a degenerate sweep: what is not seen is taken to go on as it did");
 }
 
 void add_initial_pose(ConfigKeys& keys, InitialPoseConfig& c) {

@@ -104,6 +104,7 @@ class Odometry::Impl {
   Eigen::Vector3d last_step_ = Eigen::Vector3d::Zero();  // displacement of the last sweep, sensor frame
   std::size_t sweeps_in_map_ = 0;                        // so many were ever inserted
   bool lost_ = false;                                    // the sweep before was
+  bool degenerate_ = false;                              // the sweep before was
   int lost_on_this_map_ = 0;                             // so many sweeps in a row
   std::size_t restarted_at_ = 0;                         // sweeps_in_map_ when the map was last begun
   std::int64_t begin_ns_ = 0;                            // of the sweep in work, on the clock
@@ -238,7 +239,13 @@ IcpResult Odometry::Impl::fine_registration(const PreparedSweep& prepared, const
     expected = initial;
     covariance = unknown_velocity_covariance();
   }
-  const MotionPrior prior = motion_prior(expected, covariance, dt_s, config_.prior);
+  MotionPriorConfig prior_config = config_.prior;
+  if (degenerate_) {
+    // Where nothing is seen, each sweep makes the prior weaker, and at last the least noise or bias outweighs it.
+    prior_config.acceleration_m_s2 *= config_.prior.unseen_share;
+    prior_config.angular_acceleration_rad_s2 *= config_.prior.unseen_share;
+  }
+  const MotionPrior prior = motion_prior(expected, covariance, dt_s, prior_config);
   return adaptive_icp(prepared.source, map_, initial, prior, sigma_th_m, config_.icp);
 }
 
@@ -291,6 +298,7 @@ void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp,
     preprocessor_.set_beam_angles(beams_.angles());
   }
   lost_ = false;
+  degenerate_ = result.status == OdometryStatus::kDegenerate;
   lost_on_this_map_ = 0;
   ++sweeps_in_map_;
   initial_pose_.learn(score);
@@ -366,6 +374,7 @@ void Odometry::Impl::reset() {
   sweeps_in_map_ = 0;
   restarted_at_ = 0;
   lost_ = false;
+  degenerate_ = false;
   lost_on_this_map_ = 0;
   first_cloud_ = TimedCloud{};
   map_points_.clear();

@@ -50,6 +50,7 @@ void validate(const OdometryConfig& c) {
       {"coarse.max_correspondence_m", c.coarse.max_correspondence_m, 1e-2, 1e2},
       {"prior.acceleration_m_s2", c.prior.acceleration_m_s2, 1e-3, 1e4},
       {"prior.angular_acceleration_rad_s2", c.prior.angular_acceleration_rad_s2, 1e-3, 1e4},
+      {"prior.unseen_share", c.prior.unseen_share, 1e-4, 1},
       {"initial_pose.score_sigma_m", c.initial_pose.score_sigma_m, 1e-3, 1e2},
       {"initial_pose.score_points", static_cast<double>(c.initial_pose.score_points), 10, 1e6},
       {"initial_pose.search_shift_m", c.initial_pose.search_shift_m, 0, 50},

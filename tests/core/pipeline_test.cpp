@@ -189,6 +189,30 @@ TEST(Pipeline, EmptySweepsAtTheBeginningPostponeTheStart) {
   EXPECT_EQ(odometry.trajectory().size(), 10U);
 }
 
+TEST(Pipeline, AlongASmoothCorridorTheMotionGoesOnAndIsSaidToBeUnseen) {
+  // The wall behind goes out of range after 15 m, the one ahead never comes in: then nothing shows the way along.
+  constexpr double kStep = 0.3;
+  constexpr int kUnseenFrom = 52;
+  OdometryConfig config;
+  config.preprocess.max_range_m = 30.0;
+  Odometry odometry(config);
+  int degenerate = 0;
+  for (int i = 0; i < 80; ++i) {
+    SceneSampling sampling;
+    sampling.noise_m = 0.02;
+    sampling.seed = static_cast<std::uint64_t>(i) + 1;
+    sampling.T_world_sensor = along_x(kStep * i - 45.0);
+    Sweep sweep;
+    sweep.stamp_ns = 100'000'000LL * i;
+    sweep.points = make_box_room({120.0, 5.0, 4.0}, sampling);
+    const SweepResult result = odometry.register_sweep(sweep);
+    degenerate += i >= kUnseenFrom && result.status == OdometryStatus::kDegenerate ? 1 : 0;
+    EXPECT_NEAR(result.T_odom_lidar.translation().x(), i * kStep, i < kUnseenFrom ? 0.1 : 1.0) << i;
+    EXPECT_LT(result.T_odom_lidar.translation().tail<2>().norm(), 0.1) << i;
+  }
+  EXPECT_GE(degenerate, 25);
+}
+
 TEST(Pipeline, AWallOnTheBoundaryOfVoxelsIsSeen) {
   Odometry odometry({});
   for (int i = 0; i < 10; ++i) {

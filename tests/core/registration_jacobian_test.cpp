@@ -100,6 +100,33 @@ TEST(PointToPlaneJacobian, PoseIsExactAndVelocityOfFirstOrderInMotion) {
   EXPECT_LT((velocity_hessian(sums) - velocity_block).norm(), 0.05 * velocity_block.norm());
 }
 
+TEST(PointToPlaneJacobian, KeptPlanesGiveTheSameSumsUntilTheSweepHasMoved) {
+  const Scene scene(twist(0.1, -0.05, 0.6, 3.0, -0.5, 0.2));
+  const AdaptiveIcpConfig config;
+  PlaneMatches matches(0.02);
+  const auto kept = [&](const MotionState& state, std::size_t stride) {
+    return matches.linearise(scene.cloud, scene.map, state, kSigmaM, config, stride);
+  };
+  const auto looked_up = [&](const MotionState& state) {
+    return linearise(scene.cloud, scene.map, state, kSigmaM, config);
+  };
+  EXPECT_EQ(kept(scene.state, 1).gradient(), looked_up(scene.state).gradient());
+  Vector12d step = Vector12d::Zero();
+  step[3] = 0.01;
+  const MotionState near = perturbed(scene.state, step);
+  EXPECT_EQ(kept(near, 1).count, looked_up(near).count) << "nothing has left its voxel in this scene";
+  EXPECT_TRUE(kept(near, 1).gradient().isApprox(looked_up(near).gradient(), 1e-9));
+  for (const Eigen::Index moved : {0, 3, 6, 9}) {  // by any part of the state: looked up anew
+    step.setZero();
+    step[moved] = moved < 6 ? 0.05 : 1.5;
+    const MotionState far = perturbed(scene.state, step);
+    EXPECT_EQ(kept(far, 1).gradient(), looked_up(far).gradient()) << moved;
+    kept(scene.state, 1);
+  }
+  EXPECT_EQ(kept(scene.state, 3).gradient(),
+            linearise(scene.cloud, scene.map, scene.state, kSigmaM, config, 3).gradient());
+}
+
 TEST(PointToPlaneJacobian, UnitWeightsWithinAFixedGate) {
   const Scene scene(Vector6d::Zero());
   AdaptiveIcpConfig config;

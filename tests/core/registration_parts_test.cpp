@@ -161,6 +161,19 @@ TEST(Degeneracy, NoInformationOrNoNumbersGiveZeros) {
   }
 }
 
+TEST(Degeneracy, WhatIsNoiseDoesNotCount) {
+  const Matrix6d H = hessian_of_planes({-kZ, kY, -kY});
+  Matrix6d noise = Matrix6d::Zero();
+  noise(3, 3) = 0.02 * H(4, 4);  // tilted walls seem to show x
+  const PoseDegeneracy fooled = analyse_degeneracy(H + noise);
+  EXPECT_GT(fooled.relative_eigenvalues[0], 1e-3);
+  const PoseDegeneracy aware = analyse_degeneracy(H + noise, noise);
+  EXPECT_LT(aware.relative_eigenvalues[0], 1e-9);
+  EXPECT_NEAR(std::abs(aware.directions(3, 0)), 1.0, 1e-6);
+  const PoseDegeneracy doubted = analyse_degeneracy(H + noise, 1.5 * noise);
+  EXPECT_EQ(doubted.relative_eigenvalues[0], 0.0) << "never negative";
+}
+
 TEST(SoftSelection, KeepsTheShareOfEachEigenvalue) {
   const Matrix6d H = hessian_of_planes({kX, kY, -kY, -kZ}, 2.0);
   const PoseDegeneracy d = analyse_degeneracy(H);
@@ -172,10 +185,12 @@ TEST(SoftSelection, KeepsTheShareOfEachEigenvalue) {
   const Matrix6d after =
       d.directions.transpose() * scale.asDiagonal() * W.transpose() * H * W * scale.asDiagonal() * d.directions;
   for (Eigen::Index i = 0; i < 6; ++i) {
-    const double r = std::pow(d.relative_eigenvalues[i] / threshold, 4);
+    const double r = std::pow(std::max(0.0, 2.0 * d.relative_eigenvalues[i] / threshold - 1.0), 4);
     EXPECT_NEAR(after(i, i) / before(i, i), r / (1.0 + r), 1e-9) << i;
   }
   EXPECT_NEAR(after(1, 1) / before(1, 1), 0.5, 1e-9);
+  const Matrix6d none = soft_selection(d, 2.0 * d.relative_eigenvalues[0]);
+  EXPECT_NEAR((none * scale.asDiagonal() * d.directions.col(0)).norm(), 0.0, 1e-9) << "half of the threshold";
   EXPECT_TRUE((W.transpose() * H * W).isApprox((W.transpose() * H * W).transpose(), 1e-12));
 }
 

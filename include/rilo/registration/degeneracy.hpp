@@ -21,7 +21,8 @@ struct PoseDegeneracy {
 PoseDegeneracy analyse_degeneracy(const Matrix6d& H, const Matrix6d& noise = Matrix6d::Zero());
 
 /// Matrix W (6×6; Hessian Wᵀ H W, gradient Wᵀ Wᵀ b) that fades out the directions whose relative eigenvalue
-/// is small against `threshold`: eigenvalue λ keeps the share λ⁴ / (λ⁴ + threshold⁴). Identity when `threshold` is 0.
+/// is small against `threshold`: eigenvalue λ keeps the share r⁴ / (r⁴ + 1), r = 2 λ / threshold − 1, none
+/// at all below half of the threshold. Identity when `threshold` is 0.
 Matrix6d soft_selection(const PoseDegeneracy& degeneracy, double threshold);
 
 }  // namespace rilo

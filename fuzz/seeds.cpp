@@ -72,12 +72,6 @@ void recordings(const Seeds& seeds, const std::vector<Sweep>& sweeps) {
   seeds.write("rosbag2", "plain", test::metadata_yaml({"a.db3"}, "sqlite3") + '\0' + bytes);
   seeds.write("rosbag2", "packed",
               test::metadata_yaml({"a.db3.zstd"}, "sqlite3", "FILE") + '\0' + test::zstd_of(bytes));
-#ifdef RILO_HAS_ROSBAG
-  const auto ros1 = test::recorded(sweeps, MessageEncoding::kRos1);
-  for (const char* packed : {"none", "bz2", "lz4"}) {
-    test::write_bag(seeds.file("bag", packed), {{"/points", test::kRos1Type}}, ros1, packed);
-  }
-#endif
 }
 
 // Two frames of 16 valid columns of 2 pixels.

@@ -4,7 +4,7 @@
 #
 #   scripts/fuzz.sh                 a minute for each parser
 #   scripts/fuzz.sh 600             ten minutes for each
-#   scripts/fuzz.sh 600 mcap bag    these alone
+#   scripts/fuzz.sh 600 mcap pcap   these alone
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 

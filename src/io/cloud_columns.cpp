@@ -246,6 +246,7 @@ void PackedRows::store_bytes(std::size_t field, const char* value) {
 
 std::vector<ColumnView> PackedRows::columns(bool big_endian) const {
   std::vector<ColumnView> columns(offsets_.size());
+  if (bytes_.empty()) return columns;  // no address to add an offset to
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (offsets_[i]) columns[i] = {bytes_.data() + *offsets_[i], stride_, types_[i], big_endian};
   }

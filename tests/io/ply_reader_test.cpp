@@ -125,6 +125,19 @@ TEST(PlyTest, LyingHeaders) {
 }
 
 // Elements without properties take no bytes, whatever their count.
+// Rows that are gathered one by one: none.
+TEST(PlyTest, NoVertices) {
+  const TempDir folder;
+  const std::string xyz =
+      "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nproperty uchar ring\n";
+  const std::string list = "property list uchar int l\n";
+  for (const std::string& header : {"format ascii 1.0\n" + xyz, "format binary_little_endian 1.0\n" + xyz + list}) {
+    const RawCloud cloud = read_ply(folder.write("n.ply", "ply\n" + header + "end_header\n"));
+    EXPECT_TRUE(cloud.points.empty());
+    EXPECT_TRUE(cloud.rings.empty());
+  }
+}
+
 TEST(PlyTest, HugeEmptyElement) {
   const TempDir folder;
   for (const char* format : {"ascii", "binary_little_endian"}) {

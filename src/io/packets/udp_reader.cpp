@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <limits>
 #include <pcap/pcap.h>
 #include <system_error>
 #include <utility>
@@ -25,6 +26,16 @@ std::uint16_t get16(std::string_view bytes, std::size_t at) {
 
 std::optional<std::string_view> after(std::string_view bytes, std::size_t count) {
   return bytes.size() >= count ? std::optional(bytes.substr(count)) : std::nullopt;
+}
+
+// A pcapng file may count 64 bits of seconds.
+std::int64_t stamp_ns(std::int64_t seconds, std::int64_t ns) {
+  std::int64_t stamp = 0;
+  if (!__builtin_mul_overflow(seconds, std::int64_t{1'000'000'000}, &stamp) &&
+      !__builtin_add_overflow(stamp, ns, &stamp)) {
+    return stamp;
+  }
+  return seconds < 0 ? std::numeric_limits<std::int64_t>::min() : std::numeric_limits<std::int64_t>::max();
 }
 
 std::optional<std::string_view> after_ethernet(std::string_view frame) {
@@ -98,8 +109,7 @@ std::optional<Datagram> UdpReader::next() {
       continue;
     }
     if (auto datagram = from_ip(*packet)) {
-      // In nanoseconds, as asked for when opening.
-      datagram->received_ns = std::int64_t{header->ts.tv_sec} * 1'000'000'000 + header->ts.tv_usec;
+      datagram->received_ns = stamp_ns(header->ts.tv_sec, header->ts.tv_usec);  // nanoseconds, as asked for above
       return datagram;
     }
   }

@@ -1,5 +1,6 @@
 // The SQLite3 file of a rosbag2.
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <sqlite3.h>
@@ -44,11 +45,18 @@ class Database {
     sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
     sqlite3_db_config(raw, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+    std::uint64_t bytes = std::filesystem::file_size(path, error);
+    if (has_log) bytes += std::filesystem::file_size(log, error);
+    limit_work(bytes);
   }
+
+  Database(const Database&) = delete;  // SQLite has its address
+  Database& operator=(const Database&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
 
   Statement prepare(const std::string& sql) const {
+    work_left_ = most_work_;
     sqlite3_stmt* raw = nullptr;
     if (sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &raw, nullptr) != SQLITE_OK) fail("");
     return Statement(raw);
@@ -69,9 +77,20 @@ class Database {
   }
 
  private:
+  // Pages that are the children of one another many times over make a small file one of rows without end. A row takes
+  // ten bytes at least and some twenty operations: for each statement, there may be five times as many.
+  void limit_work(std::uint64_t bytes) {
+    constexpr int kOperations = 10'000;  // from one look to the next
+    most_work_ = 100 + bytes / (kOperations / 10);
+    const auto look = [](void* self) { return static_cast<Database*>(self)->work_left_-- == 0 ? 1 : 0; };
+    sqlite3_progress_handler(database_.get(), kOperations, look, this);
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
-    throw IoError({path_, "", what + "SQLite3 says: " + sqlite3_errmsg(database_.get()),
-                   "a rosbag2 database with the tables topics and messages",
+    const bool endless = sqlite3_errcode(database_.get()) == SQLITE_INTERRUPT;
+    const std::string why = endless ? "it has more rows than its bytes can hold"
+                                    : std::string("SQLite3 says: ") + sqlite3_errmsg(database_.get());
+    throw IoError({path_, "", what + why, "a rosbag2 database with the tables topics and messages",
                    "Copy the recording again; where the recorder was killed, sqlite3's .recover may help"});
   }
   static std::string escaped(const std::string& path) {
@@ -89,6 +108,8 @@ class Database {
 
   std::filesystem::path path_;
   std::unique_ptr<sqlite3, CloseDatabase> database_;
+  std::uint64_t most_work_ = 0;  // of a statement
+  mutable std::uint64_t work_left_ = 0;
 };
 
 class Db3Reader final : public Recording {

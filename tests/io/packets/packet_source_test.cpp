@@ -323,6 +323,36 @@ TEST(UdpReaderTest, LinkTypesAndVlans) {
   expect_io_error([&] { open_scan_source(folder.write("e.pcap", Capture().text())); }, {"no UDP datagrams"});
 }
 
+// One packet of a pcapng file whose clock counts whole seconds: 64 bits of them.
+std::string capture_in_seconds(std::uint64_t seconds, std::string frame) {
+  const auto captured = static_cast<std::uint32_t>(frame.size());
+  frame.resize((frame.size() + 3) / 4 * 4);
+  Bytes bytes;
+  bytes.put(std::uint32_t{0x0A0D0D0A}).put(std::uint32_t{28}).put(std::uint32_t{0x1A2B3C4D}).put(std::uint32_t{1});
+  bytes.put(std::int64_t{-1}).put(std::uint32_t{28});
+  bytes.put(std::uint32_t{1}).put(std::uint32_t{32}).put(std::uint16_t{101}).put(std::uint16_t{0});
+  bytes.put(std::uint32_t{65535}).put(std::uint16_t{9}).put(std::uint16_t{1}).put(std::uint32_t{0});  // 10^0
+  bytes.put(std::uint32_t{0}).put(std::uint32_t{32});
+  const auto length = static_cast<std::uint32_t>(32 + frame.size());
+  bytes.put(std::uint32_t{6}).put(length).put(std::uint32_t{0}).put(static_cast<std::uint32_t>(seconds >> 32U));
+  bytes.put(static_cast<std::uint32_t>(seconds)).put(captured).put(captured).raw(frame).put(length);
+  return bytes.text;
+}
+
+TEST(UdpReaderTest, StampsThatDoNotFitSaturate) {
+  const TempDir folder;
+  const std::string udp = Capture::big(1) + Capture::big(77) + Capture::big(13) + Capture::big(0) + "hello";
+  const std::string ip = Capture().ipv4(udp, 0, false);
+  const auto stamp = [&](std::uint64_t seconds) {
+    detail::UdpReader reader(folder.write("u.pcapng", capture_in_seconds(seconds, ip)));
+    const auto datagram = reader.next();
+    return datagram ? datagram->received_ns : -7;
+  };
+  EXPECT_EQ(stamp(1'700'000'000), 1'700'000'000'000'000'000);
+  EXPECT_EQ(stamp(std::uint64_t{1} << 62U), INT64_MAX);
+  EXPECT_EQ(stamp(std::uint64_t{1} << 63U), INT64_MIN);
+}
+
 TEST(UdpReaderTest, ACaptureThatIsCutOff) {
   const TempDir folder;
   const std::string whole = velodyne_drive(0x22, 3, 18000).text();

@@ -4,7 +4,7 @@ namespace rilo {
 
 /// Local voxel map.
 struct LocalMapConfig {
-  double voxel_m = 0.16;        ///< smallest voxel; every level above doubles it
+  double voxel_m = 0.16;       ///< smallest voxel; every level above doubles it
   int levels = 4;              ///< number of voxel sizes
   double scene_voxels = 32.0;  ///< the finest level in use is the one whose voxel is nearest to scene range / this
   double radius_m = 120.0;     ///< voxels farther from the sensor are evicted

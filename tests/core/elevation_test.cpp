@@ -76,7 +76,7 @@ TEST(Elevation, TheMapMovesAsIfItHadBeenMadeOfTurnedPoints) {
   along.insert(points, T, {});
   Eigen::Vector3f elevation_lever = Eigen::Vector3f::Zero();
   along.visit(
-      0, 1, [&](std::size_t) { return centre; },
+      0, 1, [&](std::size_t) -> const Eigen::Vector3d& { return centre; },
       [&](std::size_t, const Eigen::Vector3d&, const PlaneSpot& spot) {
         elevation_lever = spot.grid->elevation_lever_at(spot);
       });

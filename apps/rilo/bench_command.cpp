@@ -3,6 +3,7 @@
 #include <memory>
 #include <set>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "bench_baseline.hpp"
@@ -21,7 +22,7 @@ namespace rilo::cli {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kBenchFooter =
     R"(FILE lists sequences and configurations; each configuration is run on each sequence, one after the other. See
 docs/bench.md for its keys. A cell that fails is reported, the others still run (exit code 3 at the end, or that of the
 first failure). Ctrl-C ends the benchmark and writes what is finished.
@@ -257,7 +258,7 @@ void add_bench_command(CLI::App& app, const std::string& command_line, int& exit
   auto flags = std::make_shared<BenchFlags>();
   flags->command_line = command_line;
   CLI::App* command = app.add_subcommand("bench", "several configurations on several sequences");
-  command->footer(kFooter);
+  command->footer(kBenchFooter);
   command->add_option("FILE", flags->plan, "YAML with sequences and configurations")->check(path_given());
   command->add_option("--root", flags->root, "folder that the paths of FILE's sequences count from; default: FILE's")
       ->check(path_given());

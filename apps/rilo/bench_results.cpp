@@ -11,13 +11,9 @@ namespace rilo::cli {
 
 namespace {
 
-nlohmann::json number(const std::optional<double>& value) {
-  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
-}
-
 nlohmann::json cell_json(const BenchCell& cell) {
   nlohmann::json figures;
-  for (const BenchFigure& figure : bench_figures()) figures[figure.key] = number(value_of(cell, figure));
+  for (const BenchFigure& figure : bench_figures()) figures[figure.key] = or_null(value_of(cell, figure));
   nlohmann::json json = {{"sequence", cell.sequence},
                          {"configuration", cell.configuration},
                          {"kind", cell.peer ? "peer" : "run"},
@@ -30,14 +26,14 @@ nlohmann::json cell_json(const BenchCell& cell) {
 
 nlohmann::json summary_json(const BenchSummary& summary) {
   nlohmann::json means;
-  for (std::size_t i = 0; i < summary.means.size(); ++i) means[bench_figures()[i].key] = number(summary.means[i]);
+  for (std::size_t i = 0; i < summary.means.size(); ++i) means[bench_figures()[i].key] = or_null(summary.means[i]);
   return {{"configuration", summary.configuration},
           {"kind", summary.peer ? "peer" : "run"},
           {"sequences", summary.cells},
           {"failed", summary.failed},
           {"pooled",
-           {{"t_rel_pct", number(summary.kitti.pooled_t_rel_pct)},
-            {"r_rel_deg_per_100m", number(summary.kitti.pooled_r_rel_deg_100m)}}},
+           {{"t_rel_pct", or_null(summary.kitti.pooled_t_rel_pct)},
+            {"r_rel_deg_per_100m", or_null(summary.kitti.pooled_r_rel_deg_100m)}}},
           {"sequence_mean", means}};
 }
 

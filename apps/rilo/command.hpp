@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;  // CLI11's headers take seconds to compile: only what adds options reads them
+}
 
 namespace rilo::cli {
 

@@ -1,6 +1,8 @@
 // rilo config: prints and checks configurations.
 #include <iostream>
 
+#include <CLI/CLI.hpp>
+
 #include "checks.hpp"
 #include "command.hpp"
 #include "rilo/config/config_file.hpp"
@@ -17,7 +19,7 @@ struct ConfigFlags {
   bool markdown = false;
 };
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kConfigFooter = R"(Examples:
   rilo config --dump > my.yaml                            all keys with unit, range and meaning
   rilo config --dump --config my.yaml --set map.levels=3  what a run with these would use
   rilo config --check my.yaml)";
@@ -39,7 +41,7 @@ int config(const ConfigFlags& flags) {
 void add_config_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<ConfigFlags>();
   CLI::App* command = app.add_subcommand("config", "print or check a configuration");
-  command->footer(kFooter);
+  command->footer(kConfigFooter);
   auto* dump = command->add_flag("--dump", flags->dump, "print the configuration as YAML");
   auto* check =
       command->add_option("--check", flags->check, "check a file and say what is wrong with it")->check(path_given());

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "checks.hpp"
@@ -24,7 +25,7 @@ struct EvalFlags {
   bool json = false;
 };
 
-constexpr const char* kFooter =
+constexpr const char* kEvalFooter =
     R"(GT is a pose file or a data folder with ground truth; EST is a pose file. KITTI form (12 numbers a line) or TUM form
 (t x y z qx qy qz qw) is told from the first line. Both must be poses of the same sensor at the same instant of the
 sweep: rilo's are at the middle (pose_instant in metrics.json); for a drive simulator's folder --instant chooses the
@@ -123,7 +124,7 @@ void add_flags(CLI::App& command, EvalFlags& flags) {
 void add_eval_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<EvalFlags>();
   CLI::App* command = app.add_subcommand("eval", "errors of trajectories against ground truth");
-  command->footer(kFooter);
+  command->footer(kEvalFooter);
   add_flags(*command, *flags);
   command->callback([flags, &exit_code] { exit_code = eval(*flags); });
 }

@@ -1,16 +1,12 @@
 #include "evaluation_output.hpp"
 
-#include <optional>
-
 #include <fmt/format.h>
+
+#include "text.hpp"
 
 namespace rilo::cli {
 
 namespace {
-
-nlohmann::json number(const std::optional<double>& value) {
-  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
-}
 
 nlohmann::json summary(const ErrorSummary& s) {
   return {{"rmse", s.rmse}, {"mean", s.mean}, {"std", s.std}, {"median", s.median}, {"max", s.max}};
@@ -26,8 +22,8 @@ std::string row(const char* name, const ErrorSummary& s, const char* unit) {
 nlohmann::json evaluation_json(const Evaluation& e) {
   return {{"poses", e.poses},
           {"path_m", e.path_m},
-          {"t_rel_pct", number(e.kitti.t_rel_pct())},
-          {"r_rel_deg_per_100m", number(e.kitti.r_rel_deg_100m())},
+          {"t_rel_pct", or_null(e.kitti.t_rel_pct())},
+          {"r_rel_deg_per_100m", or_null(e.kitti.r_rel_deg_100m())},
           {"t_rel_protocol", e.kitti.short_path ? "KITTI, lengths eighths of 80 % of the path" : "KITTI, 100 … 800 m"},
           {"ape_m", summary(e.ape.translation_m)},
           {"ape_rotation_deg", summary(e.ape.rotation_deg)},
@@ -68,11 +64,11 @@ std::string evaluation_table(const Evaluation& e) {
 }
 
 nlohmann::json benchmark_json(const KittiBenchmark& b) {
-  return {
-      {"pooled", {{"t_rel_pct", number(b.pooled_t_rel_pct)}, {"r_rel_deg_per_100m", number(b.pooled_r_rel_deg_100m)}}},
-      {"sequence_mean",
-       {{"t_rel_pct", number(b.sequence_mean_t_rel_pct)},
-        {"r_rel_deg_per_100m", number(b.sequence_mean_r_rel_deg_100m)}}}};
+  return {{"pooled",
+           {{"t_rel_pct", or_null(b.pooled_t_rel_pct)}, {"r_rel_deg_per_100m", or_null(b.pooled_r_rel_deg_100m)}}},
+          {"sequence_mean",
+           {{"t_rel_pct", or_null(b.sequence_mean_t_rel_pct)},
+            {"r_rel_deg_per_100m", or_null(b.sequence_mean_r_rel_deg_100m)}}}};
 }
 
 std::string benchmark_table(const KittiBenchmark& b, std::size_t sequences) {

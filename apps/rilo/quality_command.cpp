@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -42,7 +43,7 @@ struct QualityRun {
   SourceInfo source;
 };
 
-constexpr const char* kFooter =
+constexpr const char* kQualityFooter =
     R"(DATA as for rilo run, read with the same options. POSES: of the LiDAR, KITTI form (12 numbers a line) or TUM form
 (t x y z qx qy qz qw), told from the first line; at the middle of the sweep, as rilo's are. Sweeps with per-point
 times are motion-compensated with the velocity between the neighbouring poses (--point-times none: they are already).
@@ -195,7 +196,7 @@ void add_flags(CLI::App& command, QualityFlags& flags) {
 void add_quality_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<QualityFlags>();
   CLI::App* command = app.add_subcommand("quality", "how crisp a trajectory's map is; needs no ground truth");
-  command->footer(kFooter);
+  command->footer(kQualityFooter);
   add_flags(*command, *flags);
   command->callback([flags, &exit_code] { exit_code = quality(*flags); });
 }

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "checks.hpp"
@@ -17,7 +18,7 @@ namespace rilo::cli {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kRunFooter =
     R"(DATA is a recording (ROS 1 bags, rosbag2, MCAP), a pcap of a Velodyne or an Ouster, a KITTI sequence or raw drive, a
 MulRan sequence, a drive simulator's folder, a folder of .bin, .pcd or .ply sweeps, or one such file.
 
@@ -111,7 +112,7 @@ void add_flags(CLI::App& command, RunFlags& flags) {
 void add_run_command(CLI::App& app, const std::string& command_line, int& exit_code) {
   auto flags = std::make_shared<RunFlags>();
   CLI::App* command = app.add_subcommand("run", "odometry over recorded sweeps");
-  command->footer(kFooter);
+  command->footer(kRunFooter);
   add_flags(*command, *flags);
   command->callback([flags, command_line, &exit_code] { exit_code = run_command(*flags, command_line); });
 }

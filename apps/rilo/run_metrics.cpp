@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "evaluation_output.hpp"
+#include "rilo/geometry/degrees.hpp"
 #include "run_record.hpp"
 #include "source_flags.hpp"
 #include "text.hpp"
@@ -107,7 +107,6 @@ nlohmann::json sensor_angles(const RunRecord& run) {
   if (run.results.empty()) {
     return figures;
   }
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   const SweepStats& last = run.results.back().stats;
   figures["beam_elevation_rms_deg"] = kDegPerRad * last.beam_elevation_rms_rad;
   figures["beam_azimuth_rms_deg"] = kDegPerRad * last.beam_azimuth_rms_rad;

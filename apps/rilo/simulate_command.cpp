@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "checks.hpp"
@@ -26,7 +27,7 @@ struct SimulateFlags {
   bool quiet = false;
 };
 
-constexpr const char* kFooter = R"(Example:
+constexpr const char* kSimulateFooter = R"(Example:
   rilo simulate --out drive --sensor vlp16 --sweeps 100 --seed 7
 The same options give the same bytes, whatever --threads is.)";
 
@@ -94,7 +95,7 @@ void add_drive_flags(CLI::App& command, DriveConfig& drive) {
 void add_simulate_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<SimulateFlags>();
   CLI::App* command = app.add_subcommand("simulate", "make a synthetic drive with exact ground truth");
-  command->footer(kFooter);
+  command->footer(kSimulateFooter);
   command->add_option("--out", flags->out, "folder of the drive (created)")->required()->check(path_given());
   add_drive_flags(*command, flags->drive);
   command->add_flag("--deskewed", flags->drive.deskewed, "points referred to the middle of the sweep, without times");

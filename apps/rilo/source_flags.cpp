@@ -1,5 +1,8 @@
 #include "source_flags.hpp"
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include "checks.hpp"
 #include "command.hpp"
 

@@ -3,12 +3,15 @@
 
 #include <string>
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "rilo/io/source_options.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace rilo::cli {
 

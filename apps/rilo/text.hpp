@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -14,6 +15,9 @@ std::string json_text(const nlohmann::json& json);
 
 /// `text` with such bytes replaced.
 std::string valid_utf8(const std::string& text);
+
+/// null for a figure that is not there.
+nlohmann::json or_null(const std::optional<double>& value);
 
 /// The command line as one would type it.
 std::string command_line(int argc, const char* const* argv);

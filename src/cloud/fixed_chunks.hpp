@@ -47,14 +47,17 @@ inline constexpr std::size_t kChunkSize = 1024;
 inline constexpr std::size_t kSmallChunkSize = 128;  // where an item is much work
 
 /// Number of chunks that for_fixed_chunks cuts `count` items into.
-inline std::size_t chunk_count(std::size_t count, std::size_t size = kChunkSize) { return (count + size - 1) / size; }
+template <std::size_t Size = kChunkSize>
+constexpr std::size_t chunk_count(std::size_t count) {
+  return (count + Size - 1) / Size;
+}
 
-/// Calls body(chunk, first, last) for consecutive chunks of `size` items, in parallel. The cut depends on `count` and
-/// `size` alone: sums kept per chunk and added in the order of the chunks are the same bits for any number of threads.
-template <typename Body>
-void for_fixed_chunks(std::size_t count, const Body& body, std::size_t size = kChunkSize) {
-  for_each_index(chunk_count(count, size),
-                 [&](std::size_t chunk) { body(chunk, chunk * size, std::min(count, (chunk + 1) * size)); });
+/// Calls body(chunk, first, last) for consecutive chunks of `Size` items, in parallel. The cut depends on `count` and
+/// `Size` alone: sums kept per chunk and added in the order of the chunks are the same bits for any number of threads.
+template <std::size_t Size = kChunkSize, typename Body>
+void for_fixed_chunks(std::size_t count, const Body& body) {
+  for_each_index(chunk_count<Size>(count),
+                 [&](std::size_t chunk) { body(chunk, chunk * Size, std::min(count, (chunk + 1) * Size)); });
 }
 
 }  // namespace rilo

@@ -10,7 +10,7 @@ namespace rilo {
 
 namespace {
 constexpr std::uint64_t kSecondHalf = 1ULL << 63U;  // a bit that voxel_key leaves free
-constexpr std::size_t kFirstSlots = 1U << 12U;
+constexpr std::size_t kFirstMeanSlots = 1U << 12U;
 constexpr std::size_t kAhead = 16;  // the table's memory is asked for so many points before it is needed
 }  // namespace
 
@@ -29,7 +29,7 @@ void VoxelMean::find_keys(const TimedCloud& in, double voxel_m) {
 void VoxelMean::start() {
   means_.clear();
   if (slots_.empty() || ++generation_ == 0) {  // after 2^32 calls the old marks would come back to life
-    slots_.assign(std::max(kFirstSlots, slots_.size()), Slot{});
+    slots_.assign(std::max(kFirstMeanSlots, slots_.size()), Slot{});
     generation_ = 1;
   }
 }

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using detail::kind_of;
 using detail::position_of;
 
-constexpr const char* kHint = "docs/bench.md shows how the file looks";
+constexpr const char* kPlanHint = "docs/bench.md shows how the file looks";
 
 class PlanReader {
  public:
@@ -247,14 +247,14 @@ class PlanReader {
 
 BenchPlan parse_bench_plan(std::string_view yaml, const fs::path& file, const fs::path& root) {
   try {
-    return PlanReader(file, root).read(detail::parse_yaml(yaml, file.string(), kHint));
+    return PlanReader(file, root).read(detail::parse_yaml(yaml, file.string(), kPlanHint));
   } catch (const YAML::Exception& error) {  // of nodes that yaml-cpp cannot make sense of
-    throw ConfigError({file, position_of(error.mark), "this is no YAML (" + error.msg + ")", "a plan", kHint});
+    throw ConfigError({file, position_of(error.mark), "this is no YAML (" + error.msg + ")", "a plan", kPlanHint});
   }
 }
 
 BenchPlan load_bench_plan(const fs::path& file, const fs::path& root) {
-  return parse_bench_plan(detail::read_yaml_file(file, "a benchmark plan (YAML)", kHint), file, root);
+  return parse_bench_plan(detail::read_yaml_file(file, "a benchmark plan (YAML)", kPlanHint), file, root);
 }
 
 }  // namespace rilo

@@ -22,8 +22,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
-
 // A key in the wrong section is still meant: its last part counts too, at a small price.
 std::size_t unlikeness(std::string_view wanted, std::string_view known) {
   return std::min(edit_distance(wanted, known), edit_distance(last_part(wanted), last_part(known)) + 1);

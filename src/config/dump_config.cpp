@@ -8,8 +8,6 @@
 namespace rilo {
 namespace {
 
-std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
-
 // "m, 0 … 100: what it does"
 std::string comment_of(const ConfigKey& key) {
   const std::string unit = key.unit().empty() ? "" : key.unit() + ", ";
@@ -27,7 +25,7 @@ std::string dump_config(const OdometryConfig& config) {
     std::vector<std::string> entries;
     std::size_t width = 0;
     for (const ConfigKey& key : section.keys) {
-      entries.push_back(fmt::format("{}{}: {}", indent, last_part(key.name()), key.value()));
+      entries.push_back(fmt::format("{}{}: {}", indent, key.last_name(), key.value()));
       width = std::max(width, entries.back().size());
     }
     if (!section.name.empty()) text += fmt::format("\n# {}\n{}:\n", section.meaning, section.name);

@@ -14,7 +14,7 @@ using detail::kind_of;
 using detail::position_of;
 using detail::quoted;
 
-constexpr const char* kHint = "`rilo config --dump` shows how the file looks";
+constexpr const char* kConfigHint = "`rilo config --dump` shows how the file looks";
 
 // Where a value stands, for messages.
 struct Place {
@@ -91,7 +91,7 @@ class Loader {
 OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base) {
   OdometryConfig config = base;
   const ConfigKeys keys = odometry_keys(config);
-  Loader(keys, name).load(detail::parse_yaml(yaml, name, kHint));
+  Loader(keys, name).load(detail::parse_yaml(yaml, name, kConfigHint));
   check_together(config, name);
   return config;
 }

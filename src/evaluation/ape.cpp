@@ -1,6 +1,6 @@
 #include "rilo/evaluation/ape.hpp"
 
-#include <numbers>
+#include "rilo/geometry/degrees.hpp"
 
 namespace rilo {
 
@@ -14,7 +14,7 @@ AbsolutePoseError absolute_pose_error(const std::vector<SE3>& truth, const std::
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const SE3 T = error.T_truth_estimate * estimate[i];
     translations.push_back((T.translation() - truth[i].translation()).norm());
-    rotations.push_back(rotation_angle_rad(truth[i].inverse() * T) * 180.0 / std::numbers::pi);
+    rotations.push_back(rotation_angle_rad(truth[i].inverse() * T) * kDegPerRad);
   }
   error.translation_m = summarise(std::move(translations));
   error.rotation_deg = summarise(std::move(rotations));

@@ -1,6 +1,6 @@
 #include "rilo/evaluation/error_series.hpp"
 
-#include <numbers>
+#include "rilo/geometry/degrees.hpp"
 
 namespace rilo {
 
@@ -12,8 +12,7 @@ std::vector<ErrorSample> error_series(const std::vector<SE3>& truth, const std::
   series.reserve(truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const SE3 E = truth[i].inverse() * (T_truth_estimate * estimate[i]);
-    series.push_back(
-        {distances[i], E.translation().norm(), rotation_angle_rad(E) * 180.0 / std::numbers::pi, E.translation()});
+    series.push_back({distances[i], E.translation().norm(), rotation_angle_rad(E) * kDegPerRad, E.translation()});
   }
   return series;
 }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include <Eigen/LU>
 
 #include "rilo/evaluation/alignment.hpp"
+#include "rilo/geometry/degrees.hpp"
 
 namespace rilo {
 
@@ -19,7 +19,7 @@ constexpr std::size_t kStartStep = 10;   // poses between segment starts
 constexpr double kShortPathM = 150.0;    // below, hardly any 100 m segment fits
 constexpr double kShortPathShare = 0.8;  // longest segment of a short path
 constexpr int kLengths = 8;
-constexpr double kRadPerMToDegPer100M = 100.0 * 180.0 / std::numbers::pi;
+constexpr double kRadPerMToDegPer100M = 100.0 * kDegPerRad;
 
 std::vector<double> nominal_lengths(double path_m, bool short_path) {
   std::vector<double> lengths;

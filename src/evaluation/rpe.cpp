@@ -1,9 +1,9 @@
 #include "rilo/evaluation/rpe.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "rilo/evaluation/alignment.hpp"
+#include "rilo/geometry/degrees.hpp"
 
 namespace rilo {
 
@@ -18,7 +18,7 @@ class PairErrors {
     const SE3 true_motion = truth_[first].inverse() * truth_[last];
     const SE3 E = true_motion.inverse() * (estimate_[first].inverse() * estimate_[last]);
     translations_m_.push_back(E.translation().norm() / divisor);
-    rotations_deg_.push_back(rotation_angle_rad(E) * 180.0 / std::numbers::pi / divisor);
+    rotations_deg_.push_back(rotation_angle_rad(E) * kDegPerRad / divisor);
   }
   RelativePoseError summary() const { return {summarise(translations_m_), summarise(rotations_deg_)}; }
 

@@ -16,11 +16,6 @@ namespace rilo::detail {
 namespace fs = std::filesystem;
 namespace {
 
-bool is_there(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
 // "2011-09-26 13:02:25.951199337", taken as UTC.
 std::optional<std::int64_t> parse_date(std::string_view text) {
   constexpr std::size_t kToSeconds = 17;  // "2011-09-26 13:02:"
@@ -93,7 +88,7 @@ std::vector<double> calibration_row(const fs::path& file, std::string_view key) 
 std::optional<SE3> raw_calibration(const fs::path& day) {
   const fs::path velo = day / "calib_velo_to_cam.txt";
   const fs::path cam = day / "calib_cam_to_cam.txt";
-  if (!is_there(velo) || !is_there(cam)) return std::nullopt;
+  if (!path_exists(velo) || !path_exists(cam)) return std::nullopt;
   const auto r = calibration_row(velo, "R:");
   const auto t = calibration_row(velo, "T:");
   const auto rectify = calibration_row(cam, "R_rect_00:");
@@ -107,14 +102,15 @@ std::optional<SE3> raw_calibration(const fs::path& day) {
 
 }  // namespace
 
-bool is_kitti_raw(const fs::path& folder) { return is_there(folder / "velodyne_points" / "data"); }
+bool is_kitti_raw(const fs::path& folder) { return path_exists(folder / "velodyne_points" / "data"); }
 
 ScanListing list_kitti_raw(const fs::path& folder, const SourceOptions& options) {
   const fs::path points = folder / "velodyne_points";
   ScanListing listing;
   start_listing(listing, "kitti raw", folder, find_sweep_files(points / "data"));
   const fs::path stamp_file = points / "timestamps.txt";
-  set_stamps(listing, is_there(stamp_file) ? stamps_of_numbers(stamp_file, listing.files) : std::vector<std::int64_t>{},
+  set_stamps(listing,
+             path_exists(stamp_file) ? stamps_of_numbers(stamp_file, listing.files) : std::vector<std::int64_t>{},
              options);
   std::error_code error;
   const fs::path whole = fs::canonical(folder, error);
@@ -122,7 +118,7 @@ ScanListing list_kitti_raw(const fs::path& folder, const SourceOptions& options)
   return listing;
 }
 
-bool is_mulran(const fs::path& folder) { return is_there(folder / "sensor_data" / "Ouster"); }
+bool is_mulran(const fs::path& folder) { return path_exists(folder / "sensor_data" / "Ouster"); }
 
 ScanListing list_mulran(const fs::path& folder, const SourceOptions& options) {
   constexpr std::size_t kBeams = 64;

@@ -1,9 +1,10 @@
 #include "rilo/io/elevation_correction.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
+
+#include "rilo/geometry/degrees.hpp"
 
 namespace rilo {
 namespace {
@@ -36,8 +37,8 @@ class ElevationCorrectedSource final : public ScanSource {
 }  // namespace
 
 void correct_elevation(std::vector<Eigen::Vector3f>& points, double offset_deg) {
-  const double cosine = std::cos(offset_deg * std::numbers::pi / 180);
-  const double sine = std::sin(offset_deg * std::numbers::pi / 180);
+  const double cosine = std::cos(offset_deg * kRadPerDeg);
+  const double sine = std::sin(offset_deg * kRadPerDeg);
   for (Eigen::Vector3f& point : points) {
     const Eigen::Vector3d p = point.cast<double>();
     const double horizontal = std::hypot(p.x(), p.y());

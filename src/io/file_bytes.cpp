@@ -34,6 +34,11 @@ class Descriptor {
 
 }  // namespace
 
+bool path_exists(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
 FileBytes read_file(const std::filesystem::path& path, std::size_t limit) {
   // Without O_NONBLOCK, opening a pipe would wait for its writer.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));

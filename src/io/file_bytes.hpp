@@ -8,6 +8,9 @@
 
 namespace rilo::detail {
 
+/// Whether there is anything of that name; false also when one may not look.
+bool path_exists(const std::filesystem::path& path);
+
 struct FileBytes {
   std::filesystem::path path;
   std::unique_ptr<char[]> data;

@@ -12,14 +12,14 @@ namespace rilo {
 namespace fs = std::filesystem;
 namespace {
 
-bool is_there(const fs::path& path) {
+bool file_exists(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored);
 }
 
 std::optional<SE3> calibration_of(const fs::path& data) {
   const fs::path file = data / "calib.txt";
-  return is_there(file) ? read_kitti_calibration(file) : std::nullopt;
+  return file_exists(file) ? read_kitti_calibration(file) : std::nullopt;
 }
 
 GroundTruth lidar_frame(const fs::path& file, std::string instant) {
@@ -43,10 +43,10 @@ fs::path official_poses(const fs::path& data) {
 
 std::optional<GroundTruth> find_truth(const fs::path& data, TruthInstant instant) {
   const std::string wanted(to_string(instant));
-  if (const fs::path file = data / ("poses_" + wanted + ".txt"); is_there(file)) return lidar_frame(file, wanted);
-  if (const fs::path file = data / "poses_velo.txt"; is_there(file)) return lidar_frame(file, "stamp");
+  if (const fs::path file = data / ("poses_" + wanted + ".txt"); file_exists(file)) return lidar_frame(file, wanted);
+  if (const fs::path file = data / "poses_velo.txt"; file_exists(file)) return lidar_frame(file, "stamp");
   const auto T_cam_lidar = calibration_of(data);
-  if (const fs::path file = data / "poses.txt"; is_there(file)) {
+  if (const fs::path file = data / "poses.txt"; file_exists(file)) {
     if (T_cam_lidar) return camera_frame(file, *T_cam_lidar);
     GroundTruth truth = lidar_frame(file, "stamp");
     truth.warnings.emplace_back("no Tr in calib.txt: poses.txt is taken to be in the LiDAR frame");
@@ -54,7 +54,7 @@ std::optional<GroundTruth> find_truth(const fs::path& data, TruthInstant instant
   }
   const fs::path file = official_poses(data);
   std::error_code ignored;
-  if (!fs::is_directory(data / "velodyne", ignored) || !is_there(file)) return std::nullopt;
+  if (!fs::is_directory(data / "velodyne", ignored) || !file_exists(file)) return std::nullopt;
   if (!T_cam_lidar) {
     throw IoError({file, "", "poses in the camera frame and no Tr in " + (data / "calib.txt").string(),
                    "the transform from LiDAR to camera", "Put KITTI's calib.txt into the sequence folder"});

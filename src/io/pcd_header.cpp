@@ -23,9 +23,9 @@ std::optional<ScalarType> scalar_type(std::string_view letter, std::string_view 
   return std::nullopt;
 }
 
-class Parser {
+class PcdHeaderParser {
  public:
-  Parser(const std::filesystem::path& file, std::string_view text) : file_(file), lines_(text) {}
+  PcdHeaderParser(const std::filesystem::path& file, std::string_view text) : file_(file), lines_(text) {}
 
   PcdHeader parse() {
     while (const auto line = lines_.next()) {
@@ -155,7 +155,7 @@ std::size_t PcdHeader::point_bytes() const {
 }
 
 PcdHeader parse_pcd_header(const std::filesystem::path& file, std::string_view text) {
-  return Parser(file, text).parse();
+  return PcdHeaderParser(file, text).parse();
 }
 
 }  // namespace rilo::detail

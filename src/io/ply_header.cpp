@@ -29,9 +29,9 @@ constexpr std::array<std::pair<std::string_view, ScalarType>, 18> kTypeNames{{{"
                                                                               {"double", ScalarType::kFloat64},
                                                                               {"float64", ScalarType::kFloat64}}};
 
-class Parser {
+class PlyHeaderParser {
  public:
-  Parser(const std::filesystem::path& file, std::string_view text) : file_(file), lines_(text) {}
+  PlyHeaderParser(const std::filesystem::path& file, std::string_view text) : file_(file), lines_(text) {}
 
   PlyHeader parse() {
     const auto magic = lines_.next();
@@ -132,7 +132,7 @@ std::size_t PlyElement::least_bytes() const {
 }
 
 PlyHeader parse_ply_header(const std::filesystem::path& file, std::string_view text) {
-  return Parser(file, text).parse();
+  return PlyHeaderParser(file, text).parse();
 }
 
 }  // namespace rilo::detail

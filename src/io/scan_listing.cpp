@@ -18,25 +18,6 @@ namespace rilo::detail {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kNanoseconds = 1e9;
-
-void warn_about_order(ScanListing& listing) {
-  constexpr double kGapPeriods = 1.5;
-  std::size_t backward = 0;
-  std::size_t gaps = 0;
-  for (std::size_t i = 1; i < listing.stamps_ns.size(); ++i) {
-    const double step =
-        (static_cast<double>(listing.stamps_ns[i]) - static_cast<double>(listing.stamps_ns[i - 1])) / kNanoseconds;
-    backward += step <= 0 ? 1 : 0;
-    gaps += step > kGapPeriods * listing.info.period_s ? 1 : 0;
-  }
-  if (backward > 0) {
-    listing.info.warnings.push_back(std::to_string(backward) + " stamps do not come after the one before");
-  }
-  if (gaps > 0)
-    listing.info.warnings.push_back(std::to_string(gaps) + " gaps of more than 1.5 periods between the stamps");
-}
-
 double rate_of_drive(const fs::path& meta_file, double otherwise_s) {
   const FileBytes bytes = read_file(meta_file);
   const auto meta = nlohmann::json::parse(bytes.view(), nullptr, false);
@@ -69,14 +50,9 @@ void add_point_times(ScanListing& listing, const fs::path& folder) {
   }
 }
 
-bool is_there(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
 // times.txt beside the sweeps or above them; the names of the files otherwise.
 std::vector<std::int64_t> find_stamps(const fs::path& stamp_file, const std::vector<fs::path>& files) {
-  if (!is_there(stamp_file)) return stamps_from_names(files);
+  if (!path_exists(stamp_file)) return stamps_from_names(files);
   std::vector<std::int64_t> stamps = read_stamps(stamp_file);
   check_stamp_count(stamp_file, stamps.size(), files.size());
   return stamps;
@@ -85,12 +61,12 @@ std::vector<std::int64_t> find_stamps(const fs::path& stamp_file, const std::vec
 void make_a_drive_of(ScanListing& listing, const fs::path& folder, const SourceOptions& options) {
   const fs::path meta = folder / "meta.json";
   listing.info.kind = "drive simulator";
-  if (is_there(meta)) {
+  if (path_exists(meta)) {
     listing.info.period_s = rate_of_drive(meta, listing.info.period_s);
     listing.period_known = true;
   }
   const fs::path times = folder / "times_pt";
-  if (!is_there(times)) return;
+  if (!path_exists(times)) return;
   if (options.point_times == PointTimes::kAuto) add_point_times(listing, times);
   // Sweeps begin straight behind, and are stamped there.
   listing.forward_after_s = listing.info.period_s / 2;
@@ -102,7 +78,7 @@ std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps) {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
     if (stamps[i] > stamps[i - 1]) {
-      gaps.push_back(static_cast<double>(stamp_difference(stamps[i], stamps[i - 1])) / kNanoseconds);
+      gaps.push_back(static_cast<double>(stamp_difference(stamps[i], stamps[i - 1])) * 1e-9);
     }
   }
   if (gaps.empty()) return std::nullopt;
@@ -138,12 +114,11 @@ void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const So
     } else {
       listing.info.period_s = 1 / options.assumed_rate_hz;
     }
-    warn_about_order(listing);
     return;
   }
   listing.info.period_s = 1 / options.assumed_rate_hz;
   listing.info.stamps_assumed = true;
-  const double period_ns = kNanoseconds / options.assumed_rate_hz;
+  const double period_ns = 1e9 / options.assumed_rate_hz;
   for (std::size_t i = 0; i < listing.files.size(); ++i) {
     listing.stamps_ns.push_back(std::llround(static_cast<double>(i) * period_ns));
   }
@@ -160,9 +135,9 @@ ScanListing list_sequence(const fs::path& folder, const SourceOptions& options) 
   ScanListing listing;
   start_listing(listing, "kitti", folder, find_sweep_files(folder / "velodyne"));
   set_stamps(listing, find_stamps(folder / "times.txt", listing.files), options);
-  if (is_there(folder / "times_pt") || is_there(folder / "meta.json")) make_a_drive_of(listing, folder, options);
+  if (path_exists(folder / "times_pt") || path_exists(folder / "meta.json")) make_a_drive_of(listing, folder, options);
   const fs::path calibration = folder / "calib.txt";
-  if (is_there(calibration)) {
+  if (path_exists(calibration)) {
     listing.info.T_cam_lidar = read_kitti_calibration(calibration);
     if (!listing.info.T_cam_lidar) listing.info.warnings.push_back("calib.txt has no line Tr: no camera frame");
   }

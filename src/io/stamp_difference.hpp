@@ -1,10 +1,12 @@
-// Steps between stamps that may be anything: damaged files have them, too.
+// Arithmetic of stamps that may be anything: damaged files have them, too.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 
 namespace rilo::detail {
+
+inline constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
 /// a − b, or the largest number of that sign.
 inline std::int64_t stamp_difference(std::int64_t a, std::int64_t b) {

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "io/stamp_difference.hpp"
 #include "io/text.hpp"
 #include "rilo/io/pose_writer.hpp"
 
 namespace rilo {
 namespace {
 
-constexpr std::int64_t kNanoseconds = 1'000'000'000;
 constexpr std::int64_t kDecimals = 9;
 
 // A decimal number taken apart: digits × 10^-decimals.
@@ -56,7 +56,8 @@ std::string format_stamp(std::int64_t stamp_ns) {
   // Unsigned, since the most negative stamp has no positive counterpart.
   const auto bits = static_cast<std::uint64_t>(stamp_ns);
   const std::uint64_t size = stamp_ns < 0 ? 0 - bits : bits;
-  return fmt::format("{}{}.{:09}", stamp_ns < 0 ? "-" : "", size / kNanoseconds, size % kNanoseconds);
+  return fmt::format("{}{}.{:09}", stamp_ns < 0 ? "-" : "", size / detail::kNanosecondsPerSecond,
+                     size % detail::kNanosecondsPerSecond);
 }
 
 std::optional<std::int64_t> parse_stamp(std::string_view text) {

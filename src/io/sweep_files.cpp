@@ -32,7 +32,7 @@ struct FolderContent {
   std::vector<std::string> folders;
 };
 
-FolderContent look_into(const fs::path& folder) {
+FolderContent content_of(const fs::path& folder) {
   FolderContent content;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
@@ -114,7 +114,7 @@ bool natural_less(const std::string& a, const std::string& b) {
 }
 
 SweepFiles find_sweep_files(const fs::path& folder) {
-  FolderContent content = look_into(folder);
+  FolderContent content = content_of(folder);
   std::string counts;
   std::size_t kinds = 0;
   SweepFiles found;

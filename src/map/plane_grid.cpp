@@ -10,14 +10,14 @@
 namespace rilo {
 
 namespace {
-constexpr std::size_t kFirstSlots = 1U << 12U;
+constexpr std::size_t kFirstPlaneSlots = 1U << 12U;
 constexpr double kFaceShare = 0.2;        // a face is near within this share of the voxel
 constexpr double kLeastVariance = 1e-12;  // m²
 constexpr std::size_t kBatch = 16;        // so many accesses to memory are under way together
 }  // namespace
 
 PlaneGrid::PlaneGrid(double voxel_m, const PlaneCriteria& criteria)
-    : voxel_m_(voxel_m), inverse_(1.0 / voxel_m), criteria_(criteria), slots_(kFirstSlots) {}
+    : voxel_m_(voxel_m), inverse_(1.0 / voxel_m), criteria_(criteria), slots_(kFirstPlaneSlots) {}
 
 Eigen::Vector3d PlaneGrid::centre_of(const VoxelIndex& index) const {
   return voxel_m_ * Eigen::Vector3d(index.x + 0.5, index.y + 0.5, index.z + 0.5);

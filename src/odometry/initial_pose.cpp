@@ -97,7 +97,6 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
     }
   }
   choice = select_initial_pose(prediction, best, config_);
-  choice.coarse_ran = true;
   choice.coarse_iterations = iterations;
   choice.coarse_starts = starts;
   choice.coarse_cut = cut;

@@ -8,6 +8,8 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include "odometry/stage_clock.hpp"
+#include "odometry/sweep_record.hpp"
 #include "rilo/cloud/deskew.hpp"
 #include "rilo/cloud/preprocess.hpp"
 #include "rilo/map/local_map.hpp"
@@ -82,12 +84,9 @@ class Odometry::Impl {
   void lose(const PreparedSweep& prepared, const MotionState& predicted, SweepResult& result);
   void insert(const TimedCloud& cloud);
   std::int64_t usable_stamp(std::int64_t stamp_ns) const;
-  std::int64_t now() const { return clock_ ? clock_() : 0; }
-  double ms_since(std::int64_t& mark) const;
-  double elapsed_ms() const { return static_cast<double>(now() - begin_ns_) * 1e-6; }
 
   OdometryConfig config_;
-  Clock clock_;
+  StageClock clock_;
   tbb::global_control workers_;  // more than the machine has, if so told
   tbb::task_arena arena_;
   Preprocessor preprocessor_;
@@ -107,7 +106,6 @@ class Odometry::Impl {
   bool degenerate_ = false;                              // the sweep before was
   int lost_on_this_map_ = 0;                             // so many sweeps in a row
   std::size_t restarted_at_ = 0;                         // sweeps_in_map_ when the map was last begun
-  std::int64_t begin_ns_ = 0;                            // of the sweep in work, on the clock
   int coarse_starts_ = 0;                                // of the sweep in work
   TimedCloud first_cloud_;
   std::vector<Eigen::Vector3f> map_points_;
@@ -116,19 +114,14 @@ class Odometry::Impl {
 SweepResult Odometry::Impl::process(const Sweep& sweep) {
   SweepResult result;
   coarse_starts_ = 0;
-  std::int64_t mark = now();
-  const std::int64_t begin = mark;
-  begin_ns_ = begin;
+  clock_.begin();
   if (budget_.limited()) {
     preprocessor_.set_source_points(budget_.point_share() * static_cast<double>(config_.preprocess.source_points));
     result.stats.points_cut = budget_.point_share() < 1.0;
   }
   const PreparedSweep& prepared = preprocessor_.prepare(sweep);
-  result.stats.points_in = sweep.points.size();
-  result.stats.points_valid = prepared.valid_points;
-  result.stats.points_map = prepared.map_cloud.size();
-  result.stats.points_source = prepared.source.size();
-  result.stats.times.preprocess_ms = ms_since(mark);
+  record(sweep, prepared, result.stats);
+  result.stats.times.preprocess_ms = clock_.lap_ms();
   result.stamp_ns = usable_stamp(prepared.mid_stamp_ns);
   if (sweeps_in_map_ == 0) {
     start(prepared, result);
@@ -145,8 +138,7 @@ SweepResult Odometry::Impl::process(const Sweep& sweep) {
   result.stats.beam_elevation_rms_rad = beams_rad.x();
   result.stats.beam_azimuth_rms_rad = beams_rad.y();
   trajectory_.push_back({result.stamp_ns, state_.T_odom_lidar});
-  mark = begin;
-  result.stats.times.total_ms = ms_since(mark);
+  result.stats.times.total_ms = clock_.total_ms();
   if (budget_.limited()) {
     const double coarse_ms = coarse_starts_ > 0 ? result.stats.times.initial_pose_ms : 0.0;
     budget_.learn(result.stats.times.total_ms, coarse_ms, coarse_starts_);
@@ -169,7 +161,6 @@ void Odometry::Impl::start(const PreparedSweep& prepared, SweepResult& result) {
 }
 
 void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResult& result) {
-  std::int64_t mark = now();
   const double dt_s = static_cast<double>(result.stamp_ns - trajectory_.back().stamp_ns) * 1e-9;
   const double sigma_th_m = threshold_.sigma_th_m();
   result.stats.sigma_th_m = sigma_th_m;
@@ -185,33 +176,20 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
   const bool in_doubt = sweeps_in_map_ < kStartSweeps || lost_;
   // Where nothing is known yet the coarse stage is worth a late sweep.
   const bool hurried = budget_.limited() && sweeps_in_map_ >= kStartSweeps;
-  const auto time_left = [&] { return !hurried || budget_.coarse_fits(elapsed_ms()); };
+  const auto time_left = [&] { return !hurried || budget_.coarse_fits(clock_.total_ms()); };
   const InitialPose init = initial_pose_.choose(prepared.source, predicted, trajectory_.back().T_odom_lidar, dt_s, map_,
                                                 in_doubt, time_left);
   coarse_starts_ = init.coarse_starts;
-  result.stats.coarse_cut = init.coarse_cut;
-  result.stats.initial_pose = init.source;
-  result.stats.initial_pose_reason = init.reason;
-  result.stats.coarse_ran = init.coarse_ran;
-  result.stats.coarse_iterations = init.coarse_iterations;
-  result.stats.pred_align_distance_m = init.pred_align_distance_m;
-  result.stats.prediction_score = init.prediction_score;
-  result.stats.times.initial_pose_ms = ms_since(mark);
+  record(init, result.stats);
+  result.stats.times.initial_pose_ms = clock_.lap_ms();
 
   // Adaptive ICP (III-D).
   IcpResult icp = fine_registration(prepared, predicted, init, dt_s, sigma_th_m);
   if (sweeps_in_map_ == 1) {
     icp = with_first_sweep_compensated(prepared, std::move(icp), dt_s, sigma_th_m);
   }
-  result.stats.iterations = icp.iterations;
-  result.stats.converged = icp.converged;
-  result.stats.inliers = icp.inliers;
-  result.stats.inlier_ratio = static_cast<double>(icp.inliers) / static_cast<double>(prepared.source.size());
-  result.stats.residual_rms_m = icp.residual_rms_m;
-  for (std::size_t i = 0; i < result.stats.relative_eigenvalues.size(); ++i) {
-    result.stats.relative_eigenvalues[i] = icp.degeneracy.relative_eigenvalues[static_cast<Eigen::Index>(i)];
-  }
-  result.stats.times.registration_ms = ms_since(mark);
+  record(icp, prepared.source.size(), result.stats);
+  result.stats.times.registration_ms = clock_.lap_ms();
 
   // Health, adaptive threshold (III-C) and local map.
   const double score = initial_pose_.score(prepared.source, icp.state, map_);
@@ -224,7 +202,7 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
   } else {
     accept(prepared, icp, init.T_odom_lidar, score, result);
   }
-  result.stats.times.map_ms = ms_since(mark);
+  result.stats.times.map_ms = clock_.lap_ms();
 }
 
 IcpResult Odometry::Impl::fine_registration(const PreparedSweep& prepared, const MotionState& predicted,
@@ -351,11 +329,6 @@ std::int64_t Odometry::Impl::usable_stamp(std::int64_t stamp_ns) const {
   const std::size_t n = trajectory_.size();
   const std::int64_t period = n < 2 ? kDefaultPeriodNs : trajectory_[n - 1].stamp_ns - trajectory_[n - 2].stamp_ns;
   return trajectory_.back().stamp_ns + period;
-}
-
-double Odometry::Impl::ms_since(std::int64_t& mark) const {
-  const std::int64_t last = std::exchange(mark, now());
-  return static_cast<double>(mark - last) * 1e-6;
 }
 
 void Odometry::Impl::reset() {

@@ -33,33 +33,30 @@ CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& t
   matches.resize(points.size(), kNoPoint);
   const Eigen::Matrix3d R = T_target_source.linear();
   const Eigen::Matrix3d noise = noise_m * noise_m * Eigen::Matrix3d::Identity();
-  std::vector<CoarseSums> partial(chunk_count(points.size(), kSmallChunkSize));
-  for_fixed_chunks(
-      points.size(),
-      [&](std::size_t chunk, std::size_t first, std::size_t last) {
-        CoarseSums& sum = partial[chunk];
-        for (std::size_t m = first; m < last; ++m) {
-          const Eigen::Vector3d p = T_target_source * points[m].cast<double>();
-          Neighbour n;
-          if (!target.grid.nearest(p.cast<float>(), config.max_correspondence_m, n)) {
-            continue;
-          }
-          const Eigen::Vector3d e = target.grid.points()[n.index].cast<double>() - p;  // e_m = q_n − p'_m
-          // M_m = C_m + C_n, the source's covariance turned into the target's frame (eq. 5), and the noise floor.
-          const Eigen::Matrix3d M = R * source.covariances[m].cast<double>() * R.transpose() +
-                                    target.covariances[n.index].cast<double>() + noise;
-          const Eigen::Matrix3d Mi = M.inverse();
-          const double w = std::exp(-e.dot(Mi * e) / (2.0 * config.sigma * config.sigma));  // (eq. 6)
-          Eigen::Matrix<double, 3, 6> J;                                                    // of p'_m = exp(δ) T p
-          J << -hat(p), Eigen::Matrix3d::Identity();
-          const Eigen::Matrix<double, 6, 3> JtW = w * J.transpose() * Mi;
-          sum.H += JtW * J;  // (eq. 7)
-          sum.b += JtW * e;  // (eq. 8)
-          sum.weight += w;
-          ++sum.pairs;
-        }
-      },
-      kSmallChunkSize);
+  std::vector<CoarseSums> partial(chunk_count<kSmallChunkSize>(points.size()));
+  for_fixed_chunks<kSmallChunkSize>(points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    CoarseSums& sum = partial[chunk];
+    for (std::size_t m = first; m < last; ++m) {
+      const Eigen::Vector3d p = T_target_source * points[m].cast<double>();
+      Neighbour n;
+      if (!target.grid.nearest(p.cast<float>(), config.max_correspondence_m, n)) {
+        continue;
+      }
+      const Eigen::Vector3d e = target.grid.points()[n.index].cast<double>() - p;  // e_m = q_n − p'_m
+      // M_m = C_m + C_n, the source's covariance turned into the target's frame (eq. 5), and the noise floor.
+      const Eigen::Matrix3d M =
+          R * source.covariances[m].cast<double>() * R.transpose() + target.covariances[n.index].cast<double>() + noise;
+      const Eigen::Matrix3d Mi = M.inverse();
+      const double w = std::exp(-e.dot(Mi * e) / (2.0 * config.sigma * config.sigma));  // (eq. 6)
+      Eigen::Matrix<double, 3, 6> J;                                                    // of p'_m = exp(δ) T p
+      J << -hat(p), Eigen::Matrix3d::Identity();
+      const Eigen::Matrix<double, 6, 3> JtW = w * J.transpose() * Mi;
+      sum.H += JtW * J;  // (eq. 7)
+      sum.b += JtW * e;  // (eq. 8)
+      sum.weight += w;
+      ++sum.pairs;
+    }
+  });
   CoarseSums total;
   for (const CoarseSums& sum : partial) {
     total.H += sum.H;

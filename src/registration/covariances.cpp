@@ -28,18 +28,15 @@ Eigen::Matrix3f covariance(const std::vector<Eigen::Vector3f>& points, const std
 std::vector<Eigen::Matrix3f> point_covariances(const PointGrid& grid, int k, double max_distance_m) {
   const auto& points = grid.points();
   std::vector<Eigen::Matrix3f> covariances(points.size(), Eigen::Matrix3f::Zero());
-  for_fixed_chunks(
-      points.size(),
-      [&](std::size_t, std::size_t first, std::size_t last) {
-        std::vector<Neighbour> hood;
-        for (std::size_t i = first; i < last; ++i) {
-          grid.nearest(points[i], static_cast<std::size_t>(k), max_distance_m, hood);
-          if (hood.size() >= kLeastNeighbours) {
-            covariances[i] = covariance(points, hood);
-          }
-        }
-      },
-      kSmallChunkSize);
+  for_fixed_chunks<kSmallChunkSize>(points.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+    std::vector<Neighbour> hood;
+    for (std::size_t i = first; i < last; ++i) {
+      grid.nearest(points[i], static_cast<std::size_t>(k), max_distance_m, hood);
+      if (hood.size() >= kLeastNeighbours) {
+        covariances[i] = covariance(points, hood);
+      }
+    }
+  });
   return covariances;
 }
 

@@ -10,14 +10,11 @@ namespace rilo {
 std::vector<std::uint32_t> point_densities(const PointGrid& grid, double radius_m) {
   const auto& points = grid.points();
   std::vector<std::uint32_t> densities(points.size());
-  for_fixed_chunks(
-      points.size(),
-      [&](std::size_t, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-          densities[i] = static_cast<std::uint32_t>(grid.count_within(points[i], radius_m));
-        }
-      },
-      kSmallChunkSize);
+  for_fixed_chunks<kSmallChunkSize>(points.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      densities[i] = static_cast<std::uint32_t>(grid.count_within(points[i], radius_m));
+    }
+  });
   return densities;
 }
 

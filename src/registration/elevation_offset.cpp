@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <Eigen/Cholesky>
 
 #include "cloud/fixed_chunks.hpp"
 #include "rilo/cloud/deskew.hpp"
 #include "rilo/cloud/elevation.hpp"
+#include "rilo/geometry/degrees.hpp"
 
 namespace rilo {
 
@@ -22,7 +22,6 @@ constexpr std::size_t kLeastBlocks = 3;
 constexpr double kResponse = 0.65;
 // What the residuals of a surface share whatever their number: errors of single beams, rounded edges.
 constexpr double kSystematicM = 0.002;
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 /// Sums of the mixed terms of δ with pose and velocity, and of δ alone.
 struct Sums {

@@ -21,7 +21,23 @@ SweepMotion motion_of(const TimedCloud& source, const Vector6d& twist) {
   return {twist, *begin, *end};
 }
 
+/// Covariance of a Jacobian [(p × n)ᵀ nᵀ] whose normal has the given one.
+Matrix6d jacobian_noise(const Eigen::Vector3d& p, const Eigen::Matrix3d& normal_covariance) {
+  Eigen::Matrix<double, 6, 3> by_normal;
+  by_normal << hat(p), Eigen::Matrix3d::Identity();
+  return by_normal * normal_covariance * by_normal.transpose();
+}
+
 }  // namespace
+
+void PlaneMatches::begin(const TimedCloud& source, const MotionState& state, std::size_t stride, std::size_t count) {
+  if (stride_ == 0) {
+    measure(source);
+  }
+  matches_.assign(count, Match{});
+  stride_ = stride;
+  state_ = state;
+}
 
 void PlaneMatches::measure(const TimedCloud& source) {
   double sum = 0.0;
@@ -55,12 +71,7 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
   const std::size_t count = (source.size() + stride - 1) / stride;
   const bool keep = stride == stride_ && count == matches_.size() && near(state);
   if (!keep) {
-    if (stride_ == 0) {
-      measure(source);
-    }
-    matches_.assign(count, Match{});
-    stride_ = stride;
-    state_ = state;
+    begin(source, state, stride, count);
   }
   std::vector<NormalEquations> partial(chunk_count(count));
   std::vector<Matrix6d> noise(keep ? 0 : chunk_count(count), Matrix6d::Zero());
@@ -71,11 +82,12 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
       const Eigen::Vector3f p = timed ? motion.compensate(source.points[i], source.offsets_s[i]) : source.points[i];
       return R * p.cast<double>() + t;
     };
+    // Adds a point to the equations; returns its weight.
     const auto add = [&](std::size_t k, const Eigen::Vector3d& world) {
       const Match& match = matches_[k];
       const double e = match.normal.dot(world) - match.distance;  // e_k = (p_k − q_k)·n_k
       if (std::abs(e) > gate) {
-        return;
+        return 0.0;
       }
       const double beta = config.adaptive ? sigma2 / (sigma2 + e * e) : 1.0;  // β_k
       Vector6d J;                                                             // [(p × n)ᵀ nᵀ]
@@ -85,6 +97,7 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
       } else {
         sum.add(J, e, beta);
       }
+      return beta;
     };
     if (keep) {
       for (std::size_t k = first; k < last; ++k) {
@@ -96,13 +109,9 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
       map.visit(first, last, point_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
         const MapPlane plane = spot.grid->plane_at(spot);
         matches_[k] = {plane.normal, plane.normal.dot(plane.point), true};
-        add(k, world);
-        const double e = plane.normal.dot(world - plane.point);
-        if (k % kNoiseStride == 0 && std::abs(e) <= gate) {
-          const double beta = config.adaptive ? sigma2 / (sigma2 + e * e) : 1.0;
-          Eigen::Matrix<double, 6, 3> by_normal;  // of the Jacobian
-          by_normal << hat(world - t), Eigen::Matrix3d::Identity();
-          noise[chunk] += beta * by_normal * spot.grid->normal_covariance_at(spot) * by_normal.transpose();
+        const double beta = add(k, world);
+        if (k % kNoiseStride == 0 && beta > 0.0) {
+          noise[chunk] += beta * jacobian_noise(world - t, spot.grid->normal_covariance_at(spot));
         }
       });
     }

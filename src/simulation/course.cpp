@@ -8,8 +8,6 @@
 namespace rilo::simulation {
 namespace {
 
-Eigen::Vector2d left_of(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
-
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 struct Corner {

@@ -11,6 +11,9 @@ namespace rilo::simulation {
 
 constexpr double kLaneOffsetM = 1.75;  ///< of the driven lane to the right of the street's centre
 
+/// The direction a quarter turn to the left.
+inline Eigen::Vector2d left_of(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
+
 /// A corner of the course before it is rounded.
 struct CourseCorner {
   Eigen::Vector2d point;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "rilo/geometry/degrees.hpp"
 #include "simulation/counter_random.hpp"
 #include "simulation/town.hpp"
 #include "simulation/traffic.hpp"
@@ -23,7 +23,6 @@ using simulation::Hit;
 using simulation::Ray;
 
 constexpr double kNanoseconds = 1e9;
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kOverlapM = 50;        // of a whole lap's drive with its beginning
 constexpr double kGlassAnswers = 0.45;  // share of the panes' returns; the others go through and are lost
 constexpr double kIntensityNoise = 0.03;

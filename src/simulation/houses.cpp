@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kFootM = 1.2;  // walls reach this far into the ground, which slopes
 
-Eigen::Vector2d left_of(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
-
 // A place for a house: its front runs from `corner` along `along`, its body lies to `away` from the street.
 struct Plot {
   Eigen::Vector2d corner, along, away;

@@ -4,10 +4,10 @@
 #include <numbers>
 #include <utility>
 
+#include "rilo/geometry/degrees.hpp"
+
 namespace rilo {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 constexpr std::array<std::pair<SensorKind, std::string_view>, 3> kNames = {{
     {SensorKind::kHdl64, "hdl64"},

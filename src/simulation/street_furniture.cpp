@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kInGroundM = 0.3;  // feet stand this deep in the ground
 
-Eigen::Vector2d left_of(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
-
 Eigen::Vector3d on_ground(const Ground& ground, const Eigen::Vector2d& p) {
   return {p.x(), p.y(), ground.height(p) - kInGroundM};
 }

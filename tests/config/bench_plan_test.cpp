@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 BenchPlan plan_of(const std::string& yaml) { return parse_bench_plan(yaml, "folder/plan.yaml"); }
 
-std::string message_of(const std::string& yaml) {
+std::string plan_message(const std::string& yaml) {
   try {
     plan_of(yaml);
   } catch (const ConfigError& error) {
@@ -73,7 +73,7 @@ TEST(BenchPlan, sequences_count_from_the_root_and_configurations_from_the_file) 
   const BenchPlan plan = parse_bench_plan("sequences: [{path: a, peers: {p: p.txt}}]", "folder/plan.yaml", "root");
   EXPECT_EQ(plan.sequences.at(0).path, "root/a");
   EXPECT_EQ(plan.sequences.at(0).peers.at(0).poses, "root/p.txt");
-  EXPECT_THAT(message_of("configurations: [{name: a, config: none.yaml}]"), HasSubstr("folder/none.yaml"));
+  EXPECT_THAT(plan_message("configurations: [{name: a, config: none.yaml}]"), HasSubstr("folder/none.yaml"));
 }
 
 TEST(BenchPlan, without_configurations_there_is_the_default_one) {
@@ -113,7 +113,7 @@ TEST(BenchPlan, refusals_say_where_and_what) {
       {"sequences: [{path: a}]\n---\nb: c", {"second document"}},
   };
   for (const auto& [yaml, parts] : cases) {
-    const std::string message = message_of(yaml);
+    const std::string message = plan_message(yaml);
     for (const char* part : parts) EXPECT_THAT(message, HasSubstr(part)) << yaml;
   }
 }

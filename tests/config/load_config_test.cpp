@@ -15,7 +15,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string message_of(const std::string& yaml) {
+std::string config_message(const std::string& yaml) {
   try {
     parse_config(yaml, "my.yaml");
   } catch (const ConfigError& error) {
@@ -76,55 +76,56 @@ TEST(LoadConfig, a_dump_loads_as_exactly_the_same_numbers) {
 }
 
 TEST(LoadConfig, an_unknown_key_names_its_place_and_the_nearest_known_one) {
-  EXPECT_THAT(message_of("threads: 1\nicp:\n  max_iteration: 3\n"),
+  EXPECT_THAT(config_message("threads: 1\nicp:\n  max_iteration: 3\n"),
               AllOf(HasSubstr("my.yaml"), HasSubstr("line 3, column 3"), HasSubstr("icp.max_iteration"),
                     HasSubstr("Did you mean icp.max_iterations?")));
-  EXPECT_THAT(message_of("thread: 1\n"), HasSubstr("Did you mean threads?"));
-  EXPECT_THAT(message_of("registration:\n  score_sigma_m: 1\n"), HasSubstr("unknown key"));
-  EXPECT_THAT(message_of("max_range_m: 50\n"), HasSubstr("Did you mean preprocess.max_range_m?"));
+  EXPECT_THAT(config_message("thread: 1\n"), HasSubstr("Did you mean threads?"));
+  EXPECT_THAT(config_message("registration:\n  score_sigma_m: 1\n"), HasSubstr("unknown key"));
+  EXPECT_THAT(config_message("max_range_m: 50\n"), HasSubstr("Did you mean preprocess.max_range_m?"));
 }
 
 TEST(LoadConfig, a_key_given_twice_is_refused_whichever_way_it_is_written) {
-  EXPECT_THAT(message_of("icp:\n  gate: 2\n  gate: 3\n"), AllOf(HasSubstr("line 3, column 3"), HasSubstr("icp.gate")));
-  EXPECT_THAT(message_of("icp:\n  gate: 2\nicp:\n  damping: 0\n"), AllOf(HasSubstr("line 3"), HasSubstr("second")));
-  EXPECT_THAT(message_of("icp:\n  gate: 2\nicp.gate: 3\n"), AllOf(HasSubstr("line 3"), HasSubstr("second")));
+  EXPECT_THAT(config_message("icp:\n  gate: 2\n  gate: 3\n"),
+              AllOf(HasSubstr("line 3, column 3"), HasSubstr("icp.gate")));
+  EXPECT_THAT(config_message("icp:\n  gate: 2\nicp:\n  damping: 0\n"), AllOf(HasSubstr("line 3"), HasSubstr("second")));
+  EXPECT_THAT(config_message("icp:\n  gate: 2\nicp.gate: 3\n"), AllOf(HasSubstr("line 3"), HasSubstr("second")));
 }
 
 TEST(LoadConfig, a_wrong_type_says_what_was_found_and_what_is_expected) {
-  EXPECT_THAT(message_of("icp:\n  gate: wide\n"),
+  EXPECT_THAT(config_message("icp:\n  gate: wide\n"),
               AllOf(HasSubstr("line 2, column 9"), HasSubstr("\"wide\""), HasSubstr("a number from 0.1 to 100")));
-  EXPECT_THAT(message_of("threads: 1.5"), HasSubstr("a whole number from 0 to 1024"));
-  EXPECT_THAT(message_of("preprocess: {deskew: yes}"), HasSubstr("true or false"));
-  EXPECT_THAT(message_of("preprocess: {deskew: 1}"), HasSubstr("true or false"));
-  EXPECT_THAT(message_of("initial_pose: {rule: best}"), HasSubstr("fixed_tau or map_score"));
-  EXPECT_THAT(message_of("threads: \"2\""), HasSubstr("quotes"));
-  EXPECT_THAT(message_of("threads: [2]"), HasSubstr("a list"));
-  EXPECT_THAT(message_of("threads: {a: 2}"), HasSubstr("a map"));
-  EXPECT_THAT(message_of("threads:\n"), HasSubstr("no value"));
-  EXPECT_THAT(message_of("icp: 3"), HasSubstr("a map of keys"));
-  EXPECT_THAT(message_of("[1, 2]"), HasSubstr("a map of keys"));
-  EXPECT_THAT(message_of("just words"), HasSubstr("a map of keys"));
+  EXPECT_THAT(config_message("threads: 1.5"), HasSubstr("a whole number from 0 to 1024"));
+  EXPECT_THAT(config_message("preprocess: {deskew: yes}"), HasSubstr("true or false"));
+  EXPECT_THAT(config_message("preprocess: {deskew: 1}"), HasSubstr("true or false"));
+  EXPECT_THAT(config_message("initial_pose: {rule: best}"), HasSubstr("fixed_tau or map_score"));
+  EXPECT_THAT(config_message("threads: \"2\""), HasSubstr("quotes"));
+  EXPECT_THAT(config_message("threads: [2]"), HasSubstr("a list"));
+  EXPECT_THAT(config_message("threads: {a: 2}"), HasSubstr("a map"));
+  EXPECT_THAT(config_message("threads:\n"), HasSubstr("no value"));
+  EXPECT_THAT(config_message("icp: 3"), HasSubstr("a map of keys"));
+  EXPECT_THAT(config_message("[1, 2]"), HasSubstr("a map of keys"));
+  EXPECT_THAT(config_message("just words"), HasSubstr("a map of keys"));
 }
 
 TEST(LoadConfig, numbers_out_of_range_and_nan_are_refused) {
-  EXPECT_THAT(message_of("icp: {max_iterations: 0}"), HasSubstr("1 to 1000"));
-  EXPECT_THAT(message_of("icp: {gate: -1}"), HasSubstr("0.1 to 100"));
+  EXPECT_THAT(config_message("icp: {max_iterations: 0}"), HasSubstr("1 to 1000"));
+  EXPECT_THAT(config_message("icp: {gate: -1}"), HasSubstr("0.1 to 100"));
   for (const char* value : {".nan", "nan", ".NaN", ".inf", "-.inf", "inf", "1e400"}) {
-    EXPECT_THAT(message_of(std::string("icp: {gate: ") + value + "}"), HasSubstr("icp.gate")) << value;
+    EXPECT_THAT(config_message(std::string("icp: {gate: ") + value + "}"), HasSubstr("icp.gate")) << value;
   }
 }
 
 TEST(LoadConfig, values_that_contradict_each_other_are_refused) {
-  EXPECT_THAT(message_of("preprocess: {min_range_m: 60, max_range_m: 50}"),
+  EXPECT_THAT(config_message("preprocess: {min_range_m: 60, max_range_m: 50}"),
               AllOf(HasSubstr("my.yaml"), HasSubstr("max_range_m")));
   EXPECT_THAT(override_message({"map.max_points=4"}), HasSubstr("map.max_points"));
   EXPECT_EQ(override_message({"map.max_points=4", "map.min_points=3"}), "accepted");
 }
 
 TEST(LoadConfig, text_that_is_no_yaml_or_more_than_one_document_is_refused_with_its_place) {
-  EXPECT_THAT(message_of("icp: {gate: 3\n"), HasSubstr("no YAML"));
-  EXPECT_THAT(message_of("a: b: c"), AllOf(HasSubstr("my.yaml"), HasSubstr("line 1")));
-  EXPECT_THAT(message_of("threads: 1\n---\nthreads: 2\n"), HasSubstr("second document"));
+  EXPECT_THAT(config_message("icp: {gate: 3\n"), HasSubstr("no YAML"));
+  EXPECT_THAT(config_message("a: b: c"), AllOf(HasSubstr("my.yaml"), HasSubstr("line 1")));
+  EXPECT_THAT(config_message("threads: 1\n---\nthreads: 2\n"), HasSubstr("second document"));
 }
 
 TEST(Overrides, the_last_one_wins_and_mistakes_name_the_option) {

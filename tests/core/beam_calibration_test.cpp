@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/registration_scenes.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 #include "rilo/simulation/test_scenes.hpp"
@@ -14,17 +15,11 @@
 namespace rilo {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
-/// The voxels that the scenes are made for.
-LocalMapConfig map_config() {
-  LocalMapConfig config;
-  config.voxel_m = 0.25;
-  return config;
-}
+using test::kDegree;
+using test::scene_map_config;
 
 struct Room {
-  LocalMap map{map_config()};
+  LocalMap map{scene_map_config()};
   IcpResult icp;
   std::vector<Eigen::Vector3f> points;
 };
@@ -41,7 +36,7 @@ Room room() {
 }
 
 Beam beam_of(const Eigen::Vector3f& p, double step_deg) {
-  const double elevation = std::atan2(p.z(), p.head<2>().norm()) / kRadPerDeg;
+  const double elevation = std::atan2(p.z(), p.head<2>().norm()) / kDegree;
   return static_cast<Beam>(500.0 + std::floor(elevation / step_deg));
 }
 
@@ -54,7 +49,7 @@ BeamCalibration learnt(double step_deg, const Error& error_deg) {
   BeamSample sample;
   for (const Eigen::Vector3f& p : scene.points) {
     const Beam beam = beam_of(p, step_deg);
-    wrong[beam] = -static_cast<float>(kRadPerDeg) * error_deg(beam);
+    wrong[beam] = -static_cast<float>(kDegree) * error_deg(beam);
     sample.beams.push_back(beam);
   }
   for (int sweep = 0; sweep < 100; ++sweep) {
@@ -74,21 +69,21 @@ TEST(BeamCalibration, FindsTheErrorsOfAlternatingBeams) {
   };
   const BeamCalibration calibration = learnt(0.4, error_deg);
   for (Beam beam = 470; beam < 530; ++beam) {  // within ±12°: walls and edges of floor and ceiling
-    const Eigen::Vector2f found = calibration.angles()[beam] / static_cast<float>(kRadPerDeg);
+    const Eigen::Vector2f found = calibration.angles()[beam] / static_cast<float>(kDegree);
     EXPECT_NEAR(found.y(), error_deg(beam).y(), 0.025F) << beam;
   }
   for (Beam beam = 430; beam < 450; ++beam) {  // 20° and more below the horizon: the floor
-    const Eigen::Vector2f found = calibration.angles()[beam] / static_cast<float>(kRadPerDeg);
+    const Eigen::Vector2f found = calibration.angles()[beam] / static_cast<float>(kDegree);
     EXPECT_NEAR(found.x(), error_deg(beam).x(), 0.02F) << beam;
   }
-  EXPECT_GT(calibration.rms_rad().x(), 0.02 * kRadPerDeg);
-  EXPECT_GT(calibration.rms_rad().y(), 0.02 * kRadPerDeg);
+  EXPECT_GT(calibration.rms_rad().x(), 0.02 * kDegree);
+  EXPECT_GT(calibration.rms_rad().y(), 0.02 * kDegree);
 }
 
 TEST(BeamCalibration, WhatAllBeamsShareIsLeftAlone) {
   const BeamCalibration calibration = learnt(0.4, [](Beam) { return Eigen::Vector2f(0.06F, 0.04F); });
-  EXPECT_LT(calibration.rms_rad().x(), 0.012 * kRadPerDeg);
-  EXPECT_LT(calibration.rms_rad().y(), 0.025 * kRadPerDeg);
+  EXPECT_LT(calibration.rms_rad().x(), 0.012 * kDegree);
+  EXPECT_LT(calibration.rms_rad().y(), 0.025 * kDegree);
 }
 
 TEST(BeamCalibration, SparseBeamsAreLeftAlone) {
@@ -116,7 +111,7 @@ SweepStats drive(double sigma_deg, bool enabled, double* corrected_share = nullp
   config.sensor = SensorKind::kOs1;
   const DriveSimulator simulator(config);
   std::mt19937 rng(11);
-  std::normal_distribution<float> error(0.0F, static_cast<float>(sigma_deg * kRadPerDeg) + 1e-12F);
+  std::normal_distribution<float> error(0.0F, static_cast<float>(sigma_deg * kDegree) + 1e-12F);
   BeamAngles wrong;
   for (Beam beam = 0; beam < 64; ++beam) {
     wrong[beam] = {error(rng), error(rng)};
@@ -134,7 +129,7 @@ SweepStats drive(double sigma_deg, bool enabled, double* corrected_share = nullp
     last = odometry.register_sweep(sweep).stats;
   }
   if (corrected_share != nullptr) {
-    *corrected_share = last.beam_elevation_rms_rad / (sigma_deg * kRadPerDeg);
+    *corrected_share = last.beam_elevation_rms_rad / (sigma_deg * kDegree);
   }
   return last;
 }

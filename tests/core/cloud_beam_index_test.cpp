@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <random>
 #include <set>
 
@@ -11,13 +10,13 @@
 
 #include "rilo/cloud/beam_angles.hpp"
 #include "rilo/cloud/beam_index.hpp"
+#include "rilo/geometry/degrees.hpp"
 
 namespace rilo {
 namespace {
 
 constexpr int kRows = 32;
 constexpr int kColumns = 360;
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 double elevation_deg(int row) { return 2.0 - 0.8 * row; }
 

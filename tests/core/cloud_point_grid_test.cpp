@@ -5,22 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include "core/random_points.hpp"
 #include "rilo/cloud/point_grid.hpp"
 
 namespace rilo {
 namespace {
 
+using test::random_points;
 using Points = std::vector<Eigen::Vector3f>;
-
-Points random_points(std::size_t count, float extent_m, unsigned seed) {
-  std::mt19937 rng(seed);
-  std::uniform_real_distribution<float> uniform(-extent_m, extent_m);
-  Points points(count);
-  for (Eigen::Vector3f& p : points) {
-    p = Eigen::Vector3f(uniform(rng), uniform(rng), uniform(rng));
-  }
-  return points;
-}
 
 /// All neighbours within the distance, nearest first, ties by index.
 std::vector<Neighbour> brute_force(const Points& points, const Eigen::Vector3f& p, double max_distance_m) {

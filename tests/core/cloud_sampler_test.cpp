@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/random_points.hpp"
 #include "rilo/cloud/thinned_map.hpp"
 #include "rilo/cloud/voxel_sampler.hpp"
 #include "rilo/geometry/voxel_key.hpp"
@@ -12,17 +13,8 @@
 namespace rilo {
 namespace {
 
+using test::random_points;
 using Points = std::vector<Eigen::Vector3f>;
-
-Points random_points(std::size_t count, float extent_m, unsigned seed) {
-  std::mt19937 rng(seed);
-  std::uniform_real_distribution<float> uniform(-extent_m, extent_m);
-  Points points(count);
-  for (Eigen::Vector3f& p : points) {
-    p = Eigen::Vector3f(uniform(rng), uniform(rng), uniform(rng));
-  }
-  return points;
-}
 
 std::vector<std::uint32_t> naive_sample(const Points& points, double voxel_m) {
   std::set<std::uint64_t> seen;

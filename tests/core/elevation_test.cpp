@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/registration_scenes.hpp"
 #include "rilo/map/local_map.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/registration/elevation_offset.hpp"
@@ -16,14 +17,8 @@
 namespace rilo {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
-/// The voxels that the scenes are made for.
-LocalMapConfig map_config() {
-  LocalMapConfig config;
-  config.voxel_m = 0.25;
-  return config;
-}
+using test::kDegree;
+using test::scene_map_config;
 
 TEST(Elevation, ATurnKeepsRangeAndAzimuthAndAddsTheAngle) {
   const ElevationTurn turn(0.01);
@@ -59,10 +54,10 @@ TEST(Elevation, TheMapMovesAsIfItHadBeenMadeOfTurnedPoints) {
   }
   SE3 T = SE3::Identity();
   T.translation() << 3, -1, 0.5;
-  LocalMap map(map_config());
+  LocalMap map(scene_map_config());
   map.insert(points, T);
   map.turn_elevation(angle, {});
-  LocalMap expected(map_config());
+  LocalMap expected(scene_map_config());
   expected.insert(turned, T);
   MapPlane plane;
   MapPlane expected_plane;
@@ -72,7 +67,7 @@ TEST(Elevation, TheMapMovesAsIfItHadBeenMadeOfTurnedPoints) {
   EXPECT_LT((plane.point - expected_plane.point).norm(), 1e-4);
   EXPECT_GT(std::abs(plane.point.z() - centre.z()), 0.015);  // it did move
   // Seen from a sensor that moves along, nothing does.
-  LocalMap along(map_config());
+  LocalMap along(scene_map_config());
   along.insert(points, T, {});
   Eigen::Vector3f elevation_lever = Eigen::Vector3f::Zero();
   along.visit(
@@ -101,7 +96,7 @@ double cost_at(double angle_rad, const TimedCloud& source, LocalMap map, const M
 TEST(Elevation, TheGradientAgreesWithDifferences) {
   SceneSampling sampling;
   sampling.spacing_m = 0.05;
-  LocalMap map(map_config());
+  LocalMap map(scene_map_config());
   map.set_scene_range(6.0);
   map.insert(make_box_room({9.3, 7.1, 3.3}, sampling), SE3::Identity());
   Vector6d moved;
@@ -143,16 +138,16 @@ TEST(Elevation, NothingSeenNothingSaid) {
 TEST(Elevation, TheEstimatorFindsWhatASteadyResponsePointsAt) {
   ElevationOffsetConfig config;
   ElevationOffsetEstimator estimator(config);
-  const double truth = 0.2 * kRadPerDeg;
+  const double truth = 0.2 * kDegree;
   for (int i = 0; i < 100; ++i) {
     ElevationInformation sweep;
     sweep.information = 1e9;
     sweep.lever_m = 5.0;
     sweep.gradient = 0.6 * sweep.information * (truth - estimator.applied_rad());  // weakened by noise
     estimator.add(sweep);
-    EXPECT_LE(std::abs(estimator.advance()), config.step_deg * kRadPerDeg * 1.001);
+    EXPECT_LE(std::abs(estimator.advance()), config.step_deg * kDegree * 1.001);
   }
-  EXPECT_NEAR(estimator.applied_rad(), truth, 0.01 * kRadPerDeg);
+  EXPECT_NEAR(estimator.applied_rad(), truth, 0.01 * kDegree);
   estimator.reset();
   EXPECT_EQ(estimator.applied_rad(), 0.0);
 }
@@ -172,7 +167,7 @@ SweepResult last_of(double bias_deg, const OdometryConfig& config, double* error
     result = odometry.register_sweep(sweep.sweep);
   }
   if (error_deg != nullptr) {
-    *error_deg = rotation_angle_rad(sweep.T_odom_lidar_mid.inverse() * result.T_odom_lidar) / kRadPerDeg;
+    *error_deg = rotation_angle_rad(sweep.T_odom_lidar_mid.inverse() * result.T_odom_lidar) / kDegree;
   }
   return result;
 }
@@ -181,8 +176,8 @@ TEST(Elevation, AnErrorIsFoundAndCorrected) {
   double with_deg = 0;
   double without_deg = 0;
   const SweepStats stats = last_of(0.4, {}, &with_deg).stats;
-  EXPECT_NEAR(stats.elevation_offset_rad / kRadPerDeg, 0.4, 0.1);
-  EXPECT_NEAR(stats.elevation_applied_rad, stats.elevation_offset_rad, 0.03 * kRadPerDeg);
+  EXPECT_NEAR(stats.elevation_offset_rad / kDegree, 0.4, 0.1);
+  EXPECT_NEAR(stats.elevation_applied_rad, stats.elevation_offset_rad, 0.03 * kDegree);
   OdometryConfig off;
   off.elevation.enabled = false;
   EXPECT_EQ(last_of(0.4, off, &without_deg).stats.elevation_applied_rad, 0.0);

@@ -15,6 +15,13 @@ namespace rilo::test {
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kDegree = kPi / 180.0;
 
+/// The voxels that the scenes are made for.
+inline LocalMapConfig scene_map_config() {
+  LocalMapConfig config;
+  config.voxel_m = 0.25;
+  return config;
+}
+
 inline Vector6d twist(double rx, double ry, double rz, double x, double y, double z) {
   Vector6d xi;
   xi << rx, ry, rz, x, y, z;

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -127,6 +128,13 @@ inline bool has_warning(const SourceInfo& info, const std::string& part) {
 inline std::string kitti_row(double x, double y, double z) {
   const auto text = [](double value) { return std::to_string(value); };
   return "1 0 0 " + text(x) + " 0 1 0 " + text(y) + " 0 0 1 " + text(z) + "\n";
+}
+
+/// All sweeps that are left.
+inline std::vector<Sweep> sweeps_of(ScanSource& source) {
+  std::vector<Sweep> sweeps;
+  while (auto sweep = source.next()) sweeps.push_back(std::move(*sweep));
+  return sweeps;
 }
 
 }  // namespace rilo::test

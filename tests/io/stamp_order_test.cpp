@@ -38,7 +38,7 @@ TEST(StampOrderTest, GapsAreCounted) {
   EXPECT_EQ(faults.gaps, 2U);
   EXPECT_EQ(faults.missing, 5U);
   EXPECT_NEAR(faults.longest_gap_s, 0.4, 1e-9);
-  EXPECT_TRUE(has_warning(source->info(), "a gap of 0.300 s before it (2 sweeps missing)"));
+  EXPECT_TRUE(has_warning(source->info(), "a gap of 0.300 s before it (2 missing)"));
 }
 
 TEST(StampOrderTest, DuplicatesAndOldSweepsAreLeftOut) {

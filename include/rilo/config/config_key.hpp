@@ -12,6 +12,9 @@
 
 namespace rilo {
 
+/// What stands after the last dot of a key's name.
+inline std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+
 /// A key bound to a member of a configuration struct, which must outlive it.
 class ConfigKey {
  public:
@@ -37,8 +40,9 @@ class ConfigKey {
   ConfigKey(std::string name, std::string unit, std::string meaning, Binding binding)
       : name_(std::move(name)), unit_(std::move(unit)), meaning_(std::move(meaning)), binding_(std::move(binding)) {}
 
-  const std::string& name() const { return name_; }  ///< dotted: "icp.max_iterations"
-  const std::string& unit() const { return unit_; }  ///< empty: none
+  const std::string& name() const { return name_; }                ///< dotted: "icp.max_iterations"
+  std::string_view last_name() const { return last_part(name_); }  ///< "max_iterations"
+  const std::string& unit() const { return unit_; }                ///< empty: none
   const std::string& meaning() const { return meaning_; }
   const Binding& binding() const { return binding_; }
 

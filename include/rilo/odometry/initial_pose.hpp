@@ -23,9 +23,8 @@ struct InitialPose {
   SE3 T_odom_lidar = SE3::Identity();
   InitialPoseSource source = InitialPoseSource::kPrediction;
   InitialPoseReason reason = InitialPoseReason::kCoarseNotNeeded;
-  bool coarse_ran = false;
-  int coarse_iterations = 0;  ///< over all starts
-  int coarse_starts = 0;
+  int coarse_starts = 0;             ///< of the coarse stage; 0: it did not run
+  int coarse_iterations = 0;         ///< over all starts
   bool coarse_cut = false;           ///< for want of time it was not run, or not from all starts
   double prediction_score = 0;       ///< map score of T_pred, 0 … 1
   double pred_align_distance_m = 0;  ///< Δt_i

@@ -59,6 +59,8 @@ class PlaneMatches {
     double distance = 0;  // of the plane from the origin along its normal (m)
     bool found = false;
   };
+  /// Forgets the planes: those of `count` points, every stride-th, are to be looked up at `state`.
+  void begin(const TimedCloud& source, const MotionState& state, std::size_t stride, std::size_t count);
   void measure(const TimedCloud& source);
   bool near(const MotionState& state) const;
 

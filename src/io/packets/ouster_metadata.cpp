@@ -1,7 +1,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "io/file_bytes.hpp"
 #include "io/packets/ouster.hpp"
 #include "io/text.hpp"
+#include "rilo/geometry/degrees.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -17,7 +17,6 @@ namespace {
 
 using nlohmann::json;
 constexpr std::size_t kLargestFile = std::size_t{1} << 22;
-constexpr double kRadians = std::numbers::pi / 180;
 
 class MetadataFile {
  public:
@@ -132,7 +131,7 @@ void read_transform(const MetadataFile& file, OusterMetadata& metadata) {
 }
 
 std::vector<double> in_radians(std::vector<double> degrees) {
-  for (double& angle : degrees) angle *= kRadians;
+  for (double& angle : degrees) angle *= kRadPerDeg;
   return degrees;
 }
 

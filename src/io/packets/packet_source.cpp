@@ -32,7 +32,7 @@ struct Contents {
   }
 };
 
-Contents look_into(const fs::path& file) {
+Contents contents_of(const fs::path& file) {
   UdpReader reader(file);
   Contents contents;
   for (std::size_t i = 0; i < kLookedAt; ++i) {
@@ -64,7 +64,7 @@ fs::path find_metadata(const fs::path& file, const SourceOptions& options, const
 }
 
 std::unique_ptr<PacketDecoder> find_decoder(const fs::path& file, const SourceOptions& options) {
-  const Contents contents = look_into(file);
+  const Contents contents = contents_of(file);
   if (!contents.velodyne.empty()) {
     return velodyne_decoder(velodyne_model(contents.velodyne, file, options.sensor_file));
   }

@@ -19,7 +19,7 @@ constexpr std::uint16_t kIpv6 = 0x86DD;
 constexpr std::uint8_t kUdp = 17;
 
 // Network byte order.
-std::uint16_t get16(std::string_view bytes, std::size_t at) {
+std::uint16_t big_endian16(std::string_view bytes, std::size_t at) {
   return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[at]) << 8 |
                                     static_cast<unsigned char>(bytes[at + 1]));
 }
@@ -41,7 +41,7 @@ std::int64_t stamp_ns(std::int64_t seconds, std::int64_t ns) {
 std::optional<std::string_view> after_ethernet(std::string_view frame) {
   std::size_t type_at = 12;
   while (frame.size() >= type_at + 2) {
-    const std::uint16_t type = get16(frame, type_at);
+    const std::uint16_t type = big_endian16(frame, type_at);
     if (type == kIpv4 || type == kIpv6) return frame.substr(type_at + 2);
     const bool vlan = type == 0x8100 || type == 0x88A8 || type == 0x9100;
     if (!vlan) return std::nullopt;
@@ -122,10 +122,10 @@ std::optional<Datagram> UdpReader::from_ip(std::string_view packet) {
   if (version == 6 && packet.size() > kIpv6Header && packet[6] == kUdp) return from_udp(packet.substr(kIpv6Header));
   if (version != 4 || packet.size() < 20 || packet[9] != kUdp) return std::nullopt;
   const std::size_t header = 4 * (static_cast<unsigned char>(packet[0]) & 15U);
-  const std::size_t total = get16(packet, 2);
+  const std::size_t total = big_endian16(packet, 2);
   if (header < 20 || total < header || total > packet.size()) return std::nullopt;
   packet = packet.substr(0, total);
-  const std::uint16_t flags = get16(packet, 6);
+  const std::uint16_t flags = big_endian16(packet, 6);
   const bool more = (flags & 0x2000) != 0;
   const std::size_t offset = std::size_t{8} * (flags & 0x1FFF);
   if (!more && offset == 0) return from_udp(packet.substr(header));
@@ -138,9 +138,10 @@ std::optional<std::string_view> UdpReader::put_together(std::string_view packet,
                                                         bool more) {
   constexpr std::size_t kMostOpen = 32;
   constexpr std::size_t kLargest = 65535;
-  const std::uint64_t key = std::uint64_t{get16(packet, 12)} << 48 | std::uint64_t{get16(packet, 14)} << 32 |
-                            std::uint64_t{get16(packet, 16)} << 16 | get16(packet, 18);
-  const std::uint32_t key_more = get16(packet, 4);
+  const std::uint64_t key = std::uint64_t{big_endian16(packet, 12)} << 48 |
+                            std::uint64_t{big_endian16(packet, 14)} << 32 |
+                            std::uint64_t{big_endian16(packet, 16)} << 16 | big_endian16(packet, 18);
+  const std::uint32_t key_more = big_endian16(packet, 4);
   auto open = std::find_if(fragments_.begin(), fragments_.end(), [&](const Fragments& candidate) {
     return candidate.key == key && candidate.key_more == key_more;
   });
@@ -165,9 +166,9 @@ std::optional<std::string_view> UdpReader::put_together(std::string_view packet,
 std::optional<Datagram> UdpReader::from_udp(std::string_view udp) {
   constexpr std::size_t kHeader = 8;
   if (udp.size() < kHeader) return std::nullopt;
-  const std::size_t length = get16(udp, 4);
+  const std::size_t length = big_endian16(udp, 4);
   if (length < kHeader || length > udp.size()) return std::nullopt;
-  return Datagram{0, get16(udp, 2), udp.substr(kHeader, length - kHeader)};
+  return Datagram{0, big_endian16(udp, 2), udp.substr(kHeader, length - kHeader)};
 }
 
 std::vector<std::string> UdpReader::warnings() const {

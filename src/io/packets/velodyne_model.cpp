@@ -1,6 +1,5 @@
 // The sensors of Velodyne, from their manuals.
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -10,12 +9,12 @@
 
 #include "io/packets/velodyne.hpp"
 #include "io/text.hpp"
+#include "rilo/geometry/degrees.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr std::array<double, 16> kVlp16{-15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15};
 constexpr std::array<double, 16> kVlp16OffsetMm{11.2, -0.7, 9.7, -2.2, 8.1, -3.7, 6.6, -5.1,
                                                 5.1,  -6.6, 3.7, -8.1, 2.2, -9.7, 0.7, -11.2};
@@ -41,7 +40,7 @@ VelodyneModel make(std::string name, double unit_m, double firing_us, double las
   model.firings_a_block = elevations_deg.size() == 16 ? 2 : 1;
   for (std::size_t i = 0; i < elevations_deg.size(); ++i) {
     VelodyneLaser laser;
-    laser.elevation_rad = elevations_deg[i] * kRadians;
+    laser.elevation_rad = elevations_deg[i] * kRadPerDeg;
     const std::size_t turn = i / at_once;  // lasers of a turn fire together
     laser.fires_after_us = static_cast<double>(turn) * laser_us;
     model.lasers.push_back(laser);
@@ -101,7 +100,7 @@ VelodyneModel velodyne_model(std::string_view packet, const std::filesystem::pat
       break;
     case 0x28:
       model = make("VLP-32C", 0.004, 55.296, 2.304, 2, kVlp32C);
-      for (std::size_t i = 0; i < 32; ++i) model.lasers[i].azimuth_rad = kVlp32CAzimuth[i] * kRadians;
+      for (std::size_t i = 0; i < 32; ++i) model.lasers[i].azimuth_rad = kVlp32CAzimuth[i] * kRadPerDeg;
       break;
     default:
       throw IoError({file, "", fmt::format("Velodyne's product number 0x{:02x}", product),

@@ -6,14 +6,13 @@
 
 #include "io/byte_cursor.hpp"
 #include "io/cloud_columns.hpp"
+#include "io/stamp_difference.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
 namespace detail {
 namespace {
-
-constexpr std::int64_t kNanoseconds = 1'000'000'000;
 
 // The values of a message in their order; the encodings differ in alignment and in the end of strings.
 class MessageCursor {
@@ -151,7 +150,7 @@ PointCloud2 parse_point_cloud2(std::string_view bytes, MessageEncoding encoding,
   const auto seconds = cursor.take<std::uint32_t>("stamp");
   const std::int64_t whole =
       encoding == MessageEncoding::kRos1 ? std::int64_t{seconds} : std::int64_t{static_cast<std::int32_t>(seconds)};
-  message.stamp_ns = whole * detail::kNanoseconds + cursor.take<std::uint32_t>("stamp");
+  message.stamp_ns = whole * detail::kNanosecondsPerSecond + cursor.take<std::uint32_t>("stamp");
   message.frame_id = cursor.take_string("frame_id");
   message.height = cursor.take<std::uint32_t>("height");
   message.width = cursor.take<std::uint32_t>("width");

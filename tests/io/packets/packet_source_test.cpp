@@ -15,6 +15,7 @@ using test::Bytes;
 using test::Capture;
 using test::expect_io_error;
 using test::has_warning;
+using test::sweeps_of;
 using test::TempDir;
 using test::velodyne_packet;
 
@@ -32,12 +33,6 @@ Capture velodyne_drive(std::uint8_t product, double turns, int azimuth = 9000, s
   return capture;
 }
 
-std::vector<Sweep> all_of(ScanSource& source) {
-  std::vector<Sweep> sweeps;
-  while (auto sweep = source.next()) sweeps.push_back(std::move(*sweep));
-  return sweeps;
-}
-
 double azimuth_deg(const Eigen::Vector3f& point) {
   return std::atan2(static_cast<double>(point.y()), static_cast<double>(point.x())) * 180 / std::numbers::pi;
 }
@@ -48,7 +43,7 @@ double elevation_deg(const Eigen::Vector3f& point) {
 TEST(VelodyneTest, TurnsFromTheRear) {
   const TempDir folder;
   const auto source = open_scan_source(folder.write("v.pcap", velodyne_drive(0x28, 4.5).text()));
-  const auto sweeps = all_of(*source);
+  const auto sweeps = sweeps_of(*source);
   ASSERT_EQ(sweeps.size(), 4U);  // begun at 90°: a quarter at the beginning and a quarter at the end are left out
   for (const Sweep& sweep : sweeps) {
     EXPECT_EQ(sweep.points.size(), 360U * 32);
@@ -73,7 +68,7 @@ TEST(VelodyneTest, TurnsFromTheRear) {
 TEST(VelodyneTest, SixteenLasersFireTwiceABlock) {
   const TempDir folder;
   const auto source = open_scan_source(folder.write("v.pcap", velodyne_drive(0x22, 3.5, 18000).text()));
-  const auto sweeps = all_of(*source);
+  const auto sweeps = sweeps_of(*source);
   ASSERT_EQ(sweeps.size(), 3U);
   const Sweep& sweep = sweeps[1];
   ASSERT_EQ(sweep.points.size(), 360U * 32);
@@ -95,7 +90,7 @@ TEST(VelodyneTest, OfTwoReturnsTheLast) {
         velodyne_packet((18000 + i * 600) % 36000, 100, static_cast<std::uint32_t>(i * 1666), 0x21, 5000, 0x39));
   }
   const auto source = open_scan_source(folder.write("v.pcap", capture.text()));
-  const auto sweeps = all_of(*source);
+  const auto sweeps = sweeps_of(*source);
   ASSERT_EQ(sweeps.size(), 2U);
   EXPECT_EQ(sweeps[0].points.size(), 360U * 32);
   for (const auto& point : sweeps[0].points) EXPECT_NEAR(point.norm(), 10, 1e-3);
@@ -127,7 +122,7 @@ TEST(VelodyneTest, TwoBanksNeedACalibration) {
   expect_io_error([&] { open_scan_source(file); }, {"h.pcap", "HDL-64E", "--sensor-file"});
   SourceOptions options;
   options.sensor_file = folder.write("64e.yaml", hdl64_calibration(64)).string();
-  const auto sweeps = all_of(*open_scan_source(file, options));
+  const auto sweeps = sweeps_of(*open_scan_source(file, options));
   ASSERT_GE(sweeps.size(), 5U);
   EXPECT_EQ(sweeps[1].points.size(), 180U * 64);
   EXPECT_NEAR(sweeps[1].points[0].norm(), 11, 1e-3);
@@ -142,7 +137,7 @@ TEST(VelodyneTest, TwoBanksNeedACalibration) {
 TEST(VelodyneTest, TheHourEnds) {
   const TempDir folder;
   const auto source = open_scan_source(folder.write("v.pcap", velodyne_drive(0x22, 6, 18000, 3'599'700'000U).text()));
-  const auto sweeps = all_of(*source);
+  const auto sweeps = sweeps_of(*source);
   ASSERT_GE(sweeps.size(), 5U);
   for (std::size_t i = 1; i < sweeps.size(); ++i) {
     EXPECT_NEAR(static_cast<double>(sweeps[i].stamp_ns - sweeps[i - 1].stamp_ns) * 1e-9, 0.1, 1e-3);
@@ -230,7 +225,7 @@ TEST(OusterTest, FramesOfEveryProfile) {
     const TempDir folder;
     folder.write("o.json", ouster_metadata(shape));
     const auto source = open_scan_source(folder.write("o.pcap", ouster_drive(shape, 200).text()));
-    const auto sweeps = all_of(*source);
+    const auto sweeps = sweeps_of(*source);
     ASSERT_EQ(sweeps.size(), 3U);  // the 8 packets at the end are left out
     for (const Sweep& sweep : sweeps) {
       ASSERT_EQ(sweep.points.size(), 1024U * 3);  // the lowest beam has no return
@@ -256,8 +251,8 @@ TEST(OusterTest, FragmentedPackets) {
   const TempDir folder;
   const OusterShape& shape = kShapes[2];
   folder.write("o.json", ouster_metadata(shape));
-  const auto whole = all_of(*open_scan_source(folder.write("o.pcap", ouster_drive(shape, 130).text())));
-  const auto parts = all_of(*open_scan_source(folder.write("p.pcap", ouster_drive(shape, 130, 400).text())));
+  const auto whole = sweeps_of(*open_scan_source(folder.write("o.pcap", ouster_drive(shape, 130).text())));
+  const auto parts = sweeps_of(*open_scan_source(folder.write("p.pcap", ouster_drive(shape, 130, 400).text())));
   ASSERT_EQ(whole.size(), 2U);
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(parts[1].points, whole[1].points);
@@ -357,7 +352,7 @@ TEST(UdpReaderTest, ACaptureThatIsCutOff) {
   const TempDir folder;
   const std::string whole = velodyne_drive(0x22, 3, 18000).text();
   const auto source = open_scan_source(folder.write("v.pcap", whole.substr(0, whole.size() - 700)));
-  EXPECT_EQ(all_of(*source).size(), 2U);
+  EXPECT_EQ(sweeps_of(*source).size(), 2U);
   EXPECT_TRUE(has_warning(source->info(), "the capture ends early"));
 }
 
@@ -374,7 +369,7 @@ TEST(PacketSourceTest, HostileBytes) {
         bytes[random() % bytes.size()] = static_cast<char>(random());
       }
       try {
-        for (const Sweep& sweep : all_of(*open_scan_source(folder.write("o.pcap", bytes)))) {
+        for (const Sweep& sweep : sweeps_of(*open_scan_source(folder.write("o.pcap", bytes)))) {
           EXPECT_EQ(sweep.times_s.size(), sweep.points.size());
         }
       } catch (const IoError& error) {
@@ -394,7 +389,7 @@ TEST(PacketSourceTest, OusterMetadataTurnedOver) {
     for (int k = 0; k < 1 + round % 3; ++k) json[random() % json.size()] = static_cast<char>(' ' + random() % 90);
     folder.write("o.json", json);
     try {
-      all_of(*open_scan_source(file));
+      sweeps_of(*open_scan_source(file));
     } catch (const IoError& error) {
       EXPECT_GT(std::string(error.what()).size(), 20U);
     }

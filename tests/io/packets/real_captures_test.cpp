@@ -14,13 +14,8 @@ namespace rilo {
 namespace {
 
 using test::RealFiles;
+using test::sweeps_of;
 namespace fs = std::filesystem;
-
-std::vector<Sweep> all_of(ScanSource& source) {
-  std::vector<Sweep> sweeps;
-  while (auto sweep = source.next()) sweeps.push_back(std::move(*sweep));
-  return sweeps;
-}
 
 // The packets of a VelodyneScan in CDR: stamp and 1206 bytes each.
 struct ScanPacket {
@@ -97,7 +92,7 @@ TEST_F(RealFiles, Vlp32AsNebulaDecodesIt) {
 
 // A few turns at 10 Hz; the sensors stood still or moved slowly.
 void expect_turns(ScanSource& source, std::size_t turns, const std::string& format, double period_s) {
-  const auto sweeps = all_of(source);
+  const auto sweeps = sweeps_of(source);
   EXPECT_EQ(source.info().format, format);
   ASSERT_EQ(sweeps.size(), turns);
   for (const Sweep& sweep : sweeps) {
@@ -132,7 +127,7 @@ TEST_F(RealFiles, OusterCaptures) {
 TEST_F(RealFiles, OusterPoses) {
   SourceOptions options;
   options.sensor_file = file("pcap/ouster/OS-1-128_v2.3.0_1024x10.json").string();
-  const auto sweeps = all_of(*open_scan_source(file("pcap/ouster/OS-1-128_v2.3.0_1024x10_lb_n3.pcap"), options));
+  const auto sweeps = sweeps_of(*open_scan_source(file("pcap/ouster/OS-1-128_v2.3.0_1024x10_lb_n3.pcap"), options));
   ASSERT_EQ(sweeps.size(), 3U);
   Odometry odometry({});
   SE3 pose = SE3::Identity();

@@ -11,7 +11,7 @@ namespace {
 using test::TempDir;
 namespace fs = std::filesystem;
 
-std::vector<Sweep> simulated() {
+std::vector<Sweep> sweeps_since_epoch() {
   DriveConfig config;
   config.sensor = SensorKind::kVlp16;
   config.sweeps = 6;
@@ -48,7 +48,7 @@ std::string bin_with_time(const Sweep& sweep) {
 }
 
 TEST(SameDriveTest, EveryFormatGivesTheSameTrajectory) {
-  const std::vector<Sweep> sweeps = simulated();
+  const std::vector<Sweep> sweeps = sweeps_since_epoch();
   Odometry odometry({});
   std::vector<SE3> expected;
   for (const Sweep& sweep : sweeps) expected.push_back(odometry.register_sweep(sweep).T_odom_lidar);

@@ -1,0 +1,33 @@
+#include "odometry/sweep_record.hpp"
+
+namespace rilo {
+
+void record(const Sweep& sweep, const PreparedSweep& prepared, SweepStats& stats) {
+  stats.points_in = sweep.points.size();
+  stats.points_valid = prepared.valid_points;
+  stats.points_map = prepared.map_cloud.size();
+  stats.points_source = prepared.source.size();
+}
+
+void record(const InitialPose& init, SweepStats& stats) {
+  stats.initial_pose = init.source;
+  stats.initial_pose_reason = init.reason;
+  stats.coarse_ran = init.coarse_starts > 0;
+  stats.coarse_cut = init.coarse_cut;
+  stats.coarse_iterations = init.coarse_iterations;
+  stats.pred_align_distance_m = init.pred_align_distance_m;
+  stats.prediction_score = init.prediction_score;
+}
+
+void record(const IcpResult& icp, std::size_t source_points, SweepStats& stats) {
+  stats.iterations = icp.iterations;
+  stats.converged = icp.converged;
+  stats.inliers = icp.inliers;
+  stats.inlier_ratio = static_cast<double>(icp.inliers) / static_cast<double>(source_points);
+  stats.residual_rms_m = icp.residual_rms_m;
+  for (std::size_t i = 0; i < stats.relative_eigenvalues.size(); ++i) {
+    stats.relative_eigenvalues[i] = icp.degeneracy.relative_eigenvalues[static_cast<Eigen::Index>(i)];
+  }
+}
+
+}  // namespace rilo

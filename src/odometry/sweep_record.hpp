@@ -1,0 +1,16 @@
+// What the stages report, written into the statistics of a sweep.
+#pragma once
+
+#include "rilo/cloud/preprocess.hpp"
+#include "rilo/odometry/initial_pose.hpp"
+#include "rilo/odometry/sweep_result.hpp"
+#include "rilo/registration/adaptive_icp.hpp"
+
+namespace rilo {
+
+void record(const Sweep& sweep, const PreparedSweep& prepared, SweepStats& stats);
+void record(const InitialPose& init, SweepStats& stats);
+/// `source_points`: what was registered.
+void record(const IcpResult& icp, std::size_t source_points, SweepStats& stats);
+
+}  // namespace rilo

@@ -8,6 +8,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include "odometry/pose_covariance.hpp"
 #include "odometry/stage_clock.hpp"
 #include "odometry/sweep_record.hpp"
 #include "rilo/cloud/deskew.hpp"
@@ -99,6 +100,7 @@ class Odometry::Impl {
   RigidLever elevation_lever_;  // how the last pose moves with the sensor's elevation angles
   Trajectory trajectory_;
   MotionState state_;
+  PoseCovariance pose_covariance_;
   Matrix6d velocity_covariance_ = unknown_velocity_covariance();
   Eigen::Vector3d last_step_ = Eigen::Vector3d::Zero();  // displacement of the last sweep, sensor frame
   std::size_t sweeps_in_map_ = 0;                        // so many were ever inserted
@@ -249,18 +251,12 @@ IcpResult Odometry::Impl::with_first_sweep_compensated(const PreparedSweep& prep
 void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp, const SE3& T_init, double score,
                             SweepResult& result) {
   const SE3 previous = state_.T_odom_lidar;
+  const double period_s = static_cast<double>(result.stamp_ns - trajectory_.back().stamp_ns) * 1e-9;
+  result.covariance = pose_covariance_.of(icp, state_.twist, prepared.source.timed() ? period_s : 0.0);
   state_ = icp.state;
   state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
   const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());
   velocity_covariance_ = covariance.bottomRightCorner<6, 6>();
-  // The registration perturbs rotation and translation along the axes of the odometry frame; the result is in the
-  // sensor's own.
-  const Eigen::Matrix3d R = state_.T_odom_lidar.linear();
-  Matrix6d to_body = Matrix6d::Zero();
-  to_body.topLeftCorner<3, 3>() = R.transpose();
-  to_body.bottomRightCorner<3, 3>() = R.transpose();
-  result.covariance = to_body * covariance.topLeftCorner<6, 6>() * to_body.transpose();
-
   const Eigen::Vector3d step = (previous.inverse() * state_.T_odom_lidar).translation();
   if (sweeps_in_map_ >= 2) {
     threshold_.update(T_init, state_.T_odom_lidar, step - last_step_);
@@ -338,6 +334,7 @@ void Odometry::Impl::reset() {
   elevation_.reset();
   beams_.reset();
   budget_.reset();
+  pose_covariance_.reset();
   elevation_lever_ = {};
   map_.clear();
   trajectory_.clear();

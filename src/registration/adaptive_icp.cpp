@@ -65,6 +65,7 @@ bool step(const NormalEquations& sums, const Matrix6d& normal_noise, const Motio
     // direction overshoot by 1 / sqrt(share).
     b = (W.transpose() * (W.transpose() * b)).eval();
   }
+  result.sweep_information = H;
   H += prior.information;
   b -= prior.information * prior_error(prior, result.state);
   result.posterior_information = H;

@@ -33,8 +33,9 @@ struct IcpResult {
   int iterations = 0;
   std::size_t inliers = 0;
   double residual_rms_m = 0;
-  Matrix6d lidar_information = Matrix6d::Zero();  ///< of the pose, sweep alone, same perturbation as MotionPrior
-  Matrix12d posterior_information = Matrix12d::Zero();
+  Matrix6d lidar_information = Matrix6d::Zero();        ///< of the pose, sweep alone, same perturbation as MotionPrior
+  Matrix12d sweep_information = Matrix12d::Zero();      ///< of pose and velocity, sweep alone, weak directions faded
+  Matrix12d posterior_information = Matrix12d::Zero();  ///< the same and the prior's
   PoseDegeneracy degeneracy;
 };
 

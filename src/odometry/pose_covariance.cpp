@@ -1,0 +1,33 @@
+#include "odometry/pose_covariance.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace rilo {
+
+namespace {
+// The registration counts one residual in a hundred as independent, so that the prior is heard. Against the truth of
+// the simulator the poses are as good as if it were this many times more (docs/benchmarks.md).
+constexpr double kEvidenceWorth = 8.0;
+// A velocity that changes steadily by a within the sweep moves its points by a t² / 2 against the middle: a T² / 24 on
+// average over the sweep.
+constexpr double kMeanLag = 1.0 / 24.0;
+constexpr double kLearningRate = 0.2;
+}  // namespace
+
+Matrix6d PoseCovariance::of(const IcpResult& icp, const Vector6d& before, double sweep_s) {
+  const Matrix12d information = icp.posterior_information + (kEvidenceWorth - 1.0) * icp.sweep_information;
+  const Matrix12d covariance = information.ldlt().solve(Matrix12d::Identity());
+  // The registration perturbs rotation and translation along the axes of the odometry frame; the result is in the
+  // sensor's own.
+  const Eigen::Matrix3d R = icp.state.T_odom_lidar.linear();
+  Matrix6d to_body = Matrix6d::Zero();
+  to_body.topLeftCorner<3, 3>() = R.transpose();
+  to_body.bottomRightCorner<3, 3>() = R.transpose();
+  Matrix6d result = to_body * covariance.topLeftCorner<6, 6>() * to_body.transpose();
+
+  squared_change_ += kLearningRate * ((icp.state.twist - before).cwiseAbs2() - squared_change_);
+  result.diagonal() += kMeanLag * kMeanLag * sweep_s * sweep_s * squared_change_;
+  return result;
+}
+
+}  // namespace rilo

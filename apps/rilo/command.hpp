@@ -4,9 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace CLI {
-class App;  // CLI11's headers take seconds to compile: only what adds options reads them
-}
+#include "cli11_app.hpp"
 
 namespace rilo::cli {
 

@@ -5,13 +5,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "cli11_app.hpp"
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "rilo/io/source_options.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace rilo::cli {
 

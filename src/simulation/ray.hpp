@@ -7,6 +7,8 @@
 
 namespace rilo::simulation {
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 struct Ray {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;  ///< unit
@@ -16,7 +18,7 @@ struct Ray {
 
 /// The nearest surface met so far.
 struct Hit {
-  double range_m = std::numeric_limits<double>::infinity();
+  double range_m = kInfinity;
   double cos_incidence = 1;  ///< of the angle between the ray and the surface's normal
   double reflectivity = 0;   ///< 0 … 1
   bool glass = false;        ///< answers now and then only

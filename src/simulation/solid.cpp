@@ -8,8 +8,6 @@
 namespace rilo::simulation {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // The ray in the body's own frame; ranges stay the same.
 Ray to_local(const Solid& s, const Ray& ray) {
   const Eigen::Vector3d o = ray.origin - s.centre;

@@ -67,7 +67,6 @@ void SolidGrid::cast_in_cell(std::size_t cell, const Ray& ray, double enter, dou
 }
 
 void SolidGrid::cast(const Ray& ray, Hit& hit) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Eigen::Vector2d g = (ray.origin.head<2>() - low_) / kCellM;
   Eigen::Array2i cell(static_cast<int>(std::floor(g.x())), static_cast<int>(std::floor(g.y())));
   Eigen::Array2d next;

@@ -14,13 +14,14 @@ die() {
 
 # print_sources0: our C++ files, NUL-separated.
 print_sources0() {
-  find src include apps tests examples benchmarks fuzz -type f \( -name '*.cpp' -o -name '*.hpp' \) -print0 | sort -z
+  find src include apps tests examples benchmarks fuzz python -type f \( -name '*.cpp' -o -name '*.hpp' \) -print0 | sort -z
 }
 
-# build_preset PRESET [cmake --build arguments]: configures and builds, quietly when nothing is wrong.
+# build_preset PRESET [cmake --build arguments]: configures and builds, quietly when nothing is wrong. With RILO_UNITY=ON
+# eight sources are compiled together: half the time for the whole, much more for the next change.
 build_preset() {
   local preset="$1"
   shift
-  cmake --preset "$preset" --log-level=WARNING >/dev/null
+  cmake --preset "$preset" --log-level=WARNING ${RILO_UNITY:+"-DCMAKE_UNITY_BUILD=$RILO_UNITY"} >/dev/null
   cmake --build --preset "$preset" --parallel "$JOBS" "$@"
 }

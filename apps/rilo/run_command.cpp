@@ -28,9 +28,9 @@ Examples:
   rilo run 2011_09_26_drive_0001_sync --point-times azimuth --out results/0001
   rilo run sweeps/ --bin-fields x,y,z,intensity,ring --set preprocess.max_range_m=60 --map map.pcd
 
-Leaves in --out: poses_lidar.txt, poses_camera.txt (with a calibration), trajectory.tum, config.yaml (loadable),
-sweeps.csv (a line of statistics a sweep), metrics.json, report.html. Where ground truth lies in DATA, errors are in
-metrics.json and the report. While running, poses_lidar.partial.txt grows a line a sweep.
+Leaves in --out: poses_lidar.txt, poses_camera.txt (with a calibration), trajectory.tum, .csv (EuRoC) and .mcap
+(Foxglove, ROS 2), config.yaml (loadable), sweeps.csv (a line of statistics a sweep), metrics.json, report.html. Where
+ground truth lies in DATA, errors are in metrics.json and the report. While running, poses_lidar.partial.txt grows a line a sweep.
 Ctrl-C or SIGTERM ends the run after the current sweep and writes what there is (exit code 130, 143); a second one ends
 it at once.)";
 

@@ -8,6 +8,7 @@
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/map_writer.hpp"
 #include "rilo/io/pose_writer.hpp"
+#include "rilo/io/trajectory_recording.hpp"
 #include "rilo/report/html_report.hpp"
 #include "run_report.hpp"
 #include "sweeps_csv.hpp"
@@ -32,6 +33,8 @@ void write_poses(const fs::path& folder, const RunRecord& run) {
   for (const SweepResult& result : run.results) trajectory.push_back({result.stamp_ns, result.T_odom_lidar});
   write_kitti_poses(folder / "poses_lidar.txt", trajectory);
   write_tum(folder / "trajectory.tum", trajectory);
+  write_euroc(folder / "trajectory.csv", trajectory);
+  write_mcap(folder / "trajectory.mcap", run.results);
   if (run.source.T_cam_lidar) {
     write_kitti_poses_camera(folder / "poses_camera.txt", trajectory, *run.source.T_cam_lidar);
   } else {

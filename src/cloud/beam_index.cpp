@@ -34,7 +34,7 @@ int quadrant(float x, float y) {
 }  // namespace
 
 /// Returns the sense in which the azimuth runs on from point to point, 1 or -1.
-float BeamIndex::find_tangents(const std::vector<Eigen::Vector3f>& points) {
+float BeamIndex::find_tangents(std::span<const Eigen::Vector3f> points) {
   tangents_.resize(points.size());
   forward_.assign(chunk_count(points.size()), 0);
   for_fixed_chunks(points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
@@ -50,7 +50,7 @@ float BeamIndex::find_tangents(const std::vector<Eigen::Vector3f>& points) {
   return forward >= 0 ? 1.0F : -1.0F;
 }
 
-bool BeamIndex::find_turns(const std::vector<Eigen::Vector3f>& points, float direction) {
+bool BeamIndex::find_turns(std::span<const Eigen::Vector3f> points, float direction) {
   // Quadrants gone through since the first point, counted with their sign: a few points that come back over a border
   // do not matter.
   turns_.clear();
@@ -94,7 +94,7 @@ bool BeamIndex::turns_are_beams() const {
   return within < kLargestShare * (all.squares - all.sum * all.sum / static_cast<double>(all.count));
 }
 
-void BeamIndex::assign(const Sweep& sweep, std::vector<Beam>& beams) {
+void BeamIndex::assign(const SweepView& sweep, std::vector<Beam>& beams) {
   const std::size_t n = sweep.points.size();
   beams.assign(n, kNoBeam);
   if (sweep.rings.size() == n) {

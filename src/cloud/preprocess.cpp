@@ -18,7 +18,7 @@ constexpr double kSceneSmoothing = 0.1;  // about a second at 10 Hz
 
 }  // namespace
 
-const PreparedSweep& Preprocessor::prepare(const Sweep& sweep) {
+const PreparedSweep& Preprocessor::prepare(const SweepView& sweep) {
   crop(sweep);
   normalise_times(sweep);
   prepared_.valid_points = cropped_.size();
@@ -131,7 +131,7 @@ std::size_t Preprocessor::count_by_chunk(std::size_t count, const Valid& valid) 
   return total;
 }
 
-void Preprocessor::crop(const Sweep& sweep) {
+void Preprocessor::crop(const SweepView& sweep) {
   const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
   const auto min2 = static_cast<float>(config_.min_range_m * config_.min_range_m);
   const auto max2 = static_cast<float>(config_.max_range_m * config_.max_range_m);
@@ -168,7 +168,7 @@ void Preprocessor::crop(const Sweep& sweep) {
   });
 }
 
-void Preprocessor::normalise_times(const Sweep& sweep) {
+void Preprocessor::normalise_times(const SweepView& sweep) {
   prepared_.mid_stamp_ns = sweep.stamp_ns;
   if (!cropped_.timed()) {
     return;

@@ -18,6 +18,14 @@ void append_kitti(std::string& text, const SE3& pose) {
   text += '\n';
 }
 
+/// With w >= 0: of the two quaternions of a rotation always the same one.
+Eigen::Quaterniond quaternion_of(const SE3& pose) {
+  Eigen::Quaterniond q(pose.linear());
+  q.normalize();
+  if (q.w() < 0) q.coeffs() *= -1;
+  return q;
+}
+
 }  // namespace
 
 void write_kitti_poses(const std::filesystem::path& file, const Trajectory& trajectory) {
@@ -43,11 +51,20 @@ void write_tum(const std::filesystem::path& file, const Trajectory& trajectory) 
   std::string text;
   for (const StampedPose& pose : trajectory) {
     const Eigen::Vector3d t = pose.T_odom_lidar.translation();
-    Eigen::Quaterniond q(pose.T_odom_lidar.linear());
-    q.normalize();
-    if (q.w() < 0) q.coeffs() *= -1;
+    const Eigen::Quaterniond q = quaternion_of(pose.T_odom_lidar);
     fmt::format_to(std::back_inserter(text), "{} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n",
                    format_stamp(pose.stamp_ns), t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+  }
+  write_atomically(file, text);
+}
+
+void write_euroc(const std::filesystem::path& file, const Trajectory& trajectory) {
+  std::string text = "#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []\n";
+  for (const StampedPose& pose : trajectory) {
+    const Eigen::Vector3d t = pose.T_odom_lidar.translation();
+    const Eigen::Quaterniond q = quaternion_of(pose.T_odom_lidar);
+    fmt::format_to(std::back_inserter(text), "{},{:.9f},{:.9f},{:.9f},{:.12f},{:.12f},{:.12f},{:.12f}\n", pose.stamp_ns,
+                   t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
   }
   write_atomically(file, text);
 }

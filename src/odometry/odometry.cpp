@@ -60,7 +60,7 @@ class Odometry::Impl {
     preprocessor_.track_beams(config.beams.enabled);
   }
 
-  SweepResult register_sweep(const Sweep& sweep) {
+  SweepResult register_sweep(const SweepView& sweep) {
     SweepResult result;
     arena_.execute([&] { result = process(sweep); });
     return result;
@@ -73,7 +73,7 @@ class Odometry::Impl {
   const std::vector<Eigen::Vector3f>& map_points() const { return map_points_; }
 
  private:
-  SweepResult process(const Sweep& sweep);
+  SweepResult process(const SweepView& sweep);
   void start(const PreparedSweep& prepared, SweepResult& result);
   void register_prepared(const PreparedSweep& prepared, SweepResult& result);
   IcpResult fine_registration(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init,
@@ -113,7 +113,7 @@ class Odometry::Impl {
   std::vector<Eigen::Vector3f> map_points_;
 };
 
-SweepResult Odometry::Impl::process(const Sweep& sweep) {
+SweepResult Odometry::Impl::process(const SweepView& sweep) {
   SweepResult result;
   coarse_starts_ = 0;
   clock_.begin();
@@ -252,7 +252,8 @@ void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp,
                             SweepResult& result) {
   const SE3 previous = state_.T_odom_lidar;
   const double period_s = static_cast<double>(result.stamp_ns - trajectory_.back().stamp_ns) * 1e-9;
-  result.covariance = pose_covariance_.of(icp, state_.twist, prepared.source.timed() ? period_s : 0.0);
+  const bool degenerate = result.status == OdometryStatus::kDegenerate;
+  result.covariance = pose_covariance_.of(icp, degenerate, state_.twist, prepared.source.timed() ? period_s : 0.0);
   state_ = icp.state;
   state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
   const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());
@@ -272,7 +273,7 @@ void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp,
     preprocessor_.set_beam_angles(beams_.angles());
   }
   lost_ = false;
-  degenerate_ = result.status == OdometryStatus::kDegenerate;
+  degenerate_ = degenerate;
   lost_on_this_map_ = 0;
   ++sweeps_in_map_;
   initial_pose_.learn(score);
@@ -356,7 +357,7 @@ Odometry::~Odometry() = default;
 Odometry::Odometry(Odometry&&) noexcept = default;
 Odometry& Odometry::operator=(Odometry&&) noexcept = default;
 
-SweepResult Odometry::register_sweep(const Sweep& sweep) { return impl_->register_sweep(sweep); }
+SweepResult Odometry::register_sweep(const SweepView& sweep) { return impl_->register_sweep(sweep); }
 
 const Trajectory& Odometry::trajectory() const { return impl_->trajectory(); }
 

@@ -6,7 +6,8 @@ namespace rilo {
 
 namespace {
 // The registration counts one residual in a hundred as independent, so that the prior is heard. Against the truth of
-// the simulator the poses are as good as if it were this many times more (docs/benchmarks.md).
+// the simulator the poses are as good as if it were this many times more (docs/benchmarks.md), except where a
+// direction is hidden: there what the surfaces share in error leaks into the others.
 constexpr double kEvidenceWorth = 8.0;
 // A velocity that changes steadily by a within the sweep moves its points by a t² / 2 against the middle: a T² / 24 on
 // average over the sweep.
@@ -14,8 +15,11 @@ constexpr double kMeanLag = 1.0 / 24.0;
 constexpr double kLearningRate = 0.2;
 }  // namespace
 
-Matrix6d PoseCovariance::of(const IcpResult& icp, const Vector6d& before, double sweep_s) {
-  const Matrix12d information = icp.posterior_information + (kEvidenceWorth - 1.0) * icp.sweep_information;
+Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6d& before, double sweep_s) {
+  Matrix12d information = icp.posterior_information;
+  if (!degenerate) {
+    information += (kEvidenceWorth - 1.0) * icp.sweep_information;
+  }
   const Matrix12d covariance = information.ldlt().solve(Matrix12d::Identity());
   // The registration perturbs rotation and translation along the axes of the odometry frame; the result is in the
   // sensor's own.

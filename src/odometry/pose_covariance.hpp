@@ -11,9 +11,10 @@ namespace rilo {
 class PoseCovariance {
  public:
   /// Of the pose of `icp`, right perturbation, [rad; m].
+  /// @param degenerate a direction is not observed.
   /// @param before velocity during the sweep before [rad/s; m/s].
   /// @param sweep_s how long the points were measured; 0 for points that were brought to one instant before.
-  Matrix6d of(const IcpResult& icp, const Vector6d& before, double sweep_s);
+  Matrix6d of(const IcpResult& icp, bool degenerate, const Vector6d& before, double sweep_s);
 
   void reset() { *this = {}; }
 

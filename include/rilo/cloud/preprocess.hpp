@@ -31,7 +31,7 @@ class Preprocessor {
       : config_(config), source_points_(static_cast<double>(config.source_points)) {}
 
   /// The result is valid until the next call.
-  const PreparedSweep& prepare(const Sweep& sweep);
+  const PreparedSweep& prepare(const SweepView& sweep);
 
   /// Angle (rad) added to the elevation angle of every point from now on.
   void set_elevation_offset(double offset_rad) { elevation_offset_rad_ = offset_rad; }
@@ -48,11 +48,11 @@ class Preprocessor {
   void reset();
 
  private:
-  void crop(const Sweep& sweep);
+  void crop(const SweepView& sweep);
   template <typename Valid>
   std::size_t count_by_chunk(std::size_t count, const Valid& valid);
   void sample_beams();
-  void normalise_times(const Sweep& sweep);
+  void normalise_times(const SweepView& sweep);
   void downsample(double source_voxel_m);
   void adapt_voxel();
   void update_scene_range();

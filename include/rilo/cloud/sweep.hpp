@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,6 +17,18 @@ struct Sweep {
   std::vector<float> times_s;           ///< s relative to stamp_ns; empty: no times, or already motion-compensated
   std::vector<float> intensities;       ///< sensor units
   std::vector<std::uint16_t> rings;     ///< beam index
+};
+
+/// A sweep that lies somewhere else, in the memory of a driver or of numpy: nothing is copied. Columns as in Sweep.
+struct SweepView {
+  SweepView() = default;
+  SweepView(const Sweep& sweep)  // NOLINT(google-explicit-constructor): a sweep is taken wherever a view is
+      : stamp_ns(sweep.stamp_ns), points(sweep.points), times_s(sweep.times_s), rings(sweep.rings) {}
+
+  std::int64_t stamp_ns = 0;
+  std::span<const Eigen::Vector3f> points;
+  std::span<const float> times_s;
+  std::span<const std::uint16_t> rings;
 };
 
 }  // namespace rilo

@@ -23,6 +23,9 @@ void write_kitti_poses_camera(const std::filesystem::path& file, const Trajector
 /// TUM form `t x y z qx qy qz qw`; t in seconds with 9 decimals, exactly the int64 ns; qw >= 0.
 void write_tum(const std::filesystem::path& file, const Trajectory& trajectory);
 
+/// EuRoC form: a comment line, then `timestamp [ns],x,y,z,qw,qx,qy,qz`; qw >= 0.
+void write_euroc(const std::filesystem::path& file, const Trajectory& trajectory);
+
 /// One stamp a line, seconds with 9 decimals (KITTI's times.txt).
 void write_stamps(const std::filesystem::path& file, const std::vector<std::int64_t>& stamps_ns);
 

@@ -30,9 +30,10 @@ class Odometry {
   Odometry(Odometry&&) noexcept;
   Odometry& operator=(Odometry&&) noexcept;
 
-  /// Registers one sweep. Stamps must increase; a sweep whose stamp does not is registered as if one usual period had
-  /// passed. Never throws on bad data: the status in the result says what happened.
-  SweepResult register_sweep(const Sweep& sweep);
+  /// Registers one sweep (a Sweep or a view of one, which is not used after the call). Stamps must increase; a sweep
+  /// whose stamp does not is registered as if one usual period had passed. Never throws on bad data: the status in the
+  /// result says what happened.
+  SweepResult register_sweep(const SweepView& sweep);
 
   /// Poses so far, one per registered sweep.
   const Trajectory& trajectory() const;

@@ -1,0 +1,45 @@
+// The drive simulator.
+#include <pybind11/stl.h>
+#include <string>
+
+#include "arrays.hpp"
+#include "modules.hpp"
+#include "rilo/simulation/drive_simulator.hpp"
+
+namespace rilo::python {
+
+void add_simulation(py::module_& module) {
+  py::class_<DriveSimulator>(module, "Simulator", "A drive through a small town; the same arguments, the same bytes.")
+      .def(py::init(
+               [](const std::string& sensor, std::size_t sweeps, std::uint64_t seed, double start_s, bool deskewed) {
+                 DriveConfig config;
+                 const auto kind = parse_sensor_kind(sensor);
+                 if (!kind) throw py::value_error("sensor: '" + sensor + "'; expected hdl64, vlp16 or os1-64");
+                 config.sensor = *kind;
+                 config.sweeps = sweeps;
+                 config.seed = seed;
+                 config.start_s = start_s;
+                 config.deskewed = deskewed;
+                 return DriveSimulator(config);
+               }),
+           py::arg("sensor") = "hdl64", py::arg("sweeps") = 0, py::arg("seed") = 1, py::arg("start_s") = 0.0,
+           py::arg("deskewed") = false)
+      .def("__len__", &DriveSimulator::size)
+      .def(
+          "sweep",
+          [](const DriveSimulator& simulator, std::size_t i) {
+            SimulatedSweep s;
+            {
+              const py::gil_scoped_release others_go_on;
+              s = simulator.sweep(i);
+            }
+            const auto count = static_cast<py::ssize_t>(s.sweep.times_s.size());
+            const py::object times =
+                count > 0 ? py::object(hand_over<float>(std::move(s.sweep.times_s), {count})) : py::none();
+            return py::make_tuple(point_array(std::move(s.sweep.points)), times, s.sweep.stamp_ns,
+                                  pose_array(s.T_odom_lidar_mid));
+          },
+          py::arg("index"), "(points, times_s or None, stamp_ns, true pose at the middle of the sweep).");
+}
+
+}  // namespace rilo::python

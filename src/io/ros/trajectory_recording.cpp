@@ -1,0 +1,116 @@
+#include "rilo/io/trajectory_recording.hpp"
+
+#include <cstdint>
+
+#include "io/ros/cdr_writer.hpp"
+#include "io/ros/mcap_writer.hpp"
+#include "io/stamp_difference.hpp"
+
+namespace rilo {
+namespace {
+
+using detail::CdrWriter;
+
+// Definitions as ROS 2 has them, the types they are made of behind them, each after a line of "=".
+constexpr std::string_view kSeparator =
+    "================================================================================\n";
+constexpr std::string_view kHeaderDefinition = "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
+constexpr std::string_view kTimeDefinition = "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
+constexpr std::string_view kVector3Definition = "MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n";
+constexpr std::string_view kQuaternionDefinition =
+    "MSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n";
+
+std::string definition(std::string_view message, std::initializer_list<std::string_view> parts) {
+  std::string text(message);
+  for (const std::string_view part : parts) text.append(kSeparator).append(part);
+  return text;
+}
+
+std::string odometry_definition() {
+  return definition(
+      "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
+      "geometry_msgs/TwistWithCovariance twist\n",
+      {kHeaderDefinition, kTimeDefinition,
+       "MSG: geometry_msgs/PoseWithCovariance\ngeometry_msgs/Pose pose\nfloat64[36] covariance\n",
+       "MSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n",
+       "MSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n", kQuaternionDefinition,
+       "MSG: geometry_msgs/TwistWithCovariance\ngeometry_msgs/Twist twist\nfloat64[36] covariance\n",
+       "MSG: geometry_msgs/Twist\ngeometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n", kVector3Definition});
+}
+
+std::string tf_definition() {
+  return definition("geometry_msgs/TransformStamped[] transforms\n",
+                    {"MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n"
+                     "geometry_msgs/Transform transform\n",
+                     kHeaderDefinition, kTimeDefinition,
+                     "MSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\n"
+                     "geometry_msgs/Quaternion rotation\n",
+                     kVector3Definition, kQuaternionDefinition});
+}
+
+void put_header(CdrWriter& cdr, std::int64_t stamp_ns, const RecordingNames& names) {
+  std::int64_t seconds = stamp_ns / detail::kNanosecondsPerSecond;
+  std::int64_t rest = stamp_ns % detail::kNanosecondsPerSecond;
+  if (rest < 0) {
+    --seconds;
+    rest += detail::kNanosecondsPerSecond;
+  }
+  cdr.put(static_cast<std::int32_t>(seconds)).put(static_cast<std::uint32_t>(rest));
+  cdr.put_text(names.odom_frame).put_text(names.lidar_frame);
+}
+
+void put_vector(CdrWriter& cdr, const Eigen::Vector3d& v) { cdr.put(v.x()).put(v.y()).put(v.z()); }
+
+// Position or translation, then the rotation.
+void put_pose(CdrWriter& cdr, const SE3& T) {
+  const Eigen::Quaterniond q = Eigen::Quaterniond(T.linear()).normalized();
+  put_vector(cdr, T.translation());
+  cdr.put(q.x()).put(q.y()).put(q.z()).put(q.w());
+}
+
+// ROS wants position before rotation, both about the axes of the parent frame.
+Matrix6d ros_covariance(const SweepResult& result) {
+  const Eigen::Matrix3d R = result.T_odom_lidar.linear();
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topRightCorner<3, 3>() = R;
+  turn.bottomLeftCorner<3, 3>() = R;
+  return turn * result.covariance * turn.transpose();
+}
+
+std::string odometry_message(const SweepResult& result, const RecordingNames& names) {
+  CdrWriter cdr;
+  put_header(cdr, result.stamp_ns, names);
+  put_pose(cdr, result.T_odom_lidar);
+  const Matrix6d covariance = ros_covariance(result);
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    for (Eigen::Index column = 0; column < 6; ++column) cdr.put(covariance(row, column));
+  }
+  put_vector(cdr, result.twist.tail<3>());
+  put_vector(cdr, result.twist.head<3>());
+  for (int i = 0; i < 36; ++i) cdr.put(0.0);  // unknown
+  return cdr.bytes();
+}
+
+std::string tf_message(const SweepResult& result, const RecordingNames& names) {
+  CdrWriter cdr;
+  cdr.put(std::uint32_t{1});
+  put_header(cdr, result.stamp_ns, names);
+  put_pose(cdr, result.T_odom_lidar);
+  return cdr.bytes();
+}
+
+}  // namespace
+
+void write_mcap(const std::filesystem::path& file, std::span<const SweepResult> results, const RecordingNames& names) {
+  detail::McapWriter writer(file);
+  const std::uint16_t odometry =
+      writer.add_channel(names.odometry_topic, "nav_msgs/msg/Odometry", odometry_definition());
+  const std::uint16_t tf = writer.add_channel(names.tf_topic, "tf2_msgs/msg/TFMessage", tf_definition());
+  for (const SweepResult& result : results) {
+    writer.add_message(odometry, result.stamp_ns, odometry_message(result, names));
+    writer.add_message(tf, result.stamp_ns, tf_message(result, names));
+  }
+  writer.finish();
+}
+
+}  // namespace rilo

@@ -16,6 +16,11 @@ constexpr std::string_view kSeparator =
     "================================================================================\n";
 constexpr std::string_view kHeaderDefinition = "MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
 constexpr std::string_view kTimeDefinition = "MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
+constexpr std::string_view kStampedTransformDefinition =
+    "MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n"
+    "geometry_msgs/Transform transform\n";
+constexpr std::string_view kTransformDefinition =
+    "MSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n";
 constexpr std::string_view kVector3Definition = "MSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n";
 constexpr std::string_view kQuaternionDefinition =
     "MSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n";
@@ -40,11 +45,7 @@ std::string odometry_definition() {
 
 std::string tf_definition() {
   return definition("geometry_msgs/TransformStamped[] transforms\n",
-                    {"MSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n"
-                     "geometry_msgs/Transform transform\n",
-                     kHeaderDefinition, kTimeDefinition,
-                     "MSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\n"
-                     "geometry_msgs/Quaternion rotation\n",
+                    {kStampedTransformDefinition, kHeaderDefinition, kTimeDefinition, kTransformDefinition,
                      kVector3Definition, kQuaternionDefinition});
 }
 

@@ -15,7 +15,7 @@ namespace rilo {
 
 namespace {
 
-constexpr std::size_t kSweepsPerBlock = 3;  // a third of a second: the map's errors are shared by neighbouring sweeps
+constexpr std::size_t kSweepsPerBlock = 5;  // half a second: the map's errors are shared by neighbouring sweeps
 constexpr std::size_t kLeastBlocks = 3;
 // Noise in the levers weakens the response to about this share of what it should be; measured on real and simulated
 // drives. It sets how fast the estimate is found, not what it ends at: there the gradient is zero.

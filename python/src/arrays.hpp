@@ -41,7 +41,7 @@ py::array_t<Scalar> hand_over(std::vector<Value>&& values, std::vector<py::ssize
   auto owned = std::make_unique<std::vector<Value>>(std::move(values));
   const auto* data = reinterpret_cast<const Scalar*>(owned->data());
   const py::capsule owner(owned.get(), [](void* pointer) { delete static_cast<std::vector<Value>*>(pointer); });
-  owned.release();  // NOLINT(bugprone-unused-return-value): the capsule has it
+  static_cast<void>(owned.release());  // the capsule has it
   return py::array_t<Scalar>(std::move(shape), data, owner);
 }
 

@@ -97,7 +97,7 @@ void add_sources(py::module_& module) {
       },
       py::arg("path"), py::arg("topic") = "", py::arg("bin_fields") = "", py::arg("point_times") = "auto",
       py::arg("elevation_correction_deg") = 0.0, py::arg("sensor_file") = "",
-      "Opens data of any format that `rilo run` reads; options as there.");
+      "Opens data of any format that `rilo run` reads; these options mean the same there.");
 }
 
 }  // namespace rilo::python

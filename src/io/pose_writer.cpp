@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "io/unit_quaternion.hpp"
 #include "rilo/io/atomic_file.hpp"
 
 namespace rilo {
@@ -16,14 +17,6 @@ void append_kitti(std::string& text, const SE3& pose) {
     }
   }
   text += '\n';
-}
-
-/// With w >= 0: of the two quaternions of a rotation always the same one.
-Eigen::Quaterniond quaternion_of(const SE3& pose) {
-  Eigen::Quaterniond q(pose.linear());
-  q.normalize();
-  if (q.w() < 0) q.coeffs() *= -1;
-  return q;
 }
 
 }  // namespace
@@ -51,7 +44,7 @@ void write_tum(const std::filesystem::path& file, const Trajectory& trajectory) 
   std::string text;
   for (const StampedPose& pose : trajectory) {
     const Eigen::Vector3d t = pose.T_odom_lidar.translation();
-    const Eigen::Quaterniond q = quaternion_of(pose.T_odom_lidar);
+    const Eigen::Quaterniond q = detail::unit_quaternion(pose.T_odom_lidar);
     fmt::format_to(std::back_inserter(text), "{} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n",
                    format_stamp(pose.stamp_ns), t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
   }
@@ -62,7 +55,7 @@ void write_euroc(const std::filesystem::path& file, const Trajectory& trajectory
   std::string text = "#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []\n";
   for (const StampedPose& pose : trajectory) {
     const Eigen::Vector3d t = pose.T_odom_lidar.translation();
-    const Eigen::Quaterniond q = quaternion_of(pose.T_odom_lidar);
+    const Eigen::Quaterniond q = detail::unit_quaternion(pose.T_odom_lidar);
     fmt::format_to(std::back_inserter(text), "{},{:.9f},{:.9f},{:.9f},{:.12f},{:.12f},{:.12f},{:.12f}\n", pose.stamp_ns,
                    t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
   }

@@ -1,8 +1,6 @@
 #include "rilo/io/sweep_writer.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <functional>
 #include <iterator>
 #include <stdexcept>
@@ -12,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "io/lzf.hpp"
+#include "io/raw_bytes.hpp"
 #include "rilo/io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
 
@@ -47,19 +46,12 @@ std::vector<Column> columns_of(const Sweep& sweep) {
   return columns;
 }
 
-template <typename T>
-void append_bytes(std::string& bytes, T value, bool big_endian) {
-  auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  if (big_endian) std::reverse(raw.begin(), raw.end());
-  bytes.append(raw.data(), raw.size());
-}
-
 void append_value(std::string& bytes, const Column& column, std::size_t i, bool big_endian) {
   const float value = column.number(i);
   if (column.is_float) {
-    append_bytes(bytes, value, big_endian);
+    detail::append_bytes(bytes, value, big_endian);
   } else {
-    append_bytes(bytes, static_cast<std::uint16_t>(value), big_endian);
+    detail::append_bytes(bytes, static_cast<std::uint16_t>(value), big_endian);
   }
 }
 
@@ -91,8 +83,8 @@ std::string compressed_columns(const std::filesystem::path& file, const std::vec
         {file, "", std::to_string(count) + " points", "at most 4 GiB in a compressed PCD", "Write it as binary PCD"});
   }
   std::string bytes;
-  append_bytes(bytes, static_cast<std::uint32_t>(packed.size()), false);
-  append_bytes(bytes, static_cast<std::uint32_t>(plain.size()), false);
+  detail::append_bytes(bytes, static_cast<std::uint32_t>(packed.size()));
+  detail::append_bytes(bytes, static_cast<std::uint32_t>(plain.size()));
   return bytes + packed;
 }
 
@@ -108,15 +100,15 @@ void write_kitti_bin(const std::filesystem::path& file, const Sweep& sweep) {
   columns_of(sweep);  // checks the lengths
   std::string bytes;
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-    for (const float value : sweep.points[i]) append_bytes(bytes, value, false);
-    append_bytes(bytes, sweep.intensities.empty() ? 0.0F : sweep.intensities[i], false);
+    for (const float value : sweep.points[i]) detail::append_bytes(bytes, value);
+    detail::append_bytes(bytes, sweep.intensities.empty() ? 0.0F : sweep.intensities[i]);
   }
   write_atomically(file, bytes);
 }
 
 void write_floats(const std::filesystem::path& file, const std::vector<float>& values) {
   std::string bytes;
-  for (const float value : values) append_bytes(bytes, value, false);
+  for (const float value : values) detail::append_bytes(bytes, value);
   write_atomically(file, bytes);
 }
 

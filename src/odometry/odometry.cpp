@@ -79,7 +79,7 @@ class Odometry::Impl {
   IcpResult fine_registration(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init,
                               double dt_s, double sigma_th_m);
   IcpResult with_first_sweep_compensated(const PreparedSweep& prepared, IcpResult icp, double dt_s, double sigma_th_m);
-  void accept(const PreparedSweep& prepared, const IcpResult& icp, const SE3& T_init, double score,
+  void accept(const PreparedSweep& prepared, const IcpResult& icp, const SE3& T_init, double dt_s, double score,
               SweepResult& result);
   void learn_elevation(const PreparedSweep& prepared, const IcpResult& icp, bool sound);
   void lose(const PreparedSweep& prepared, const MotionState& predicted, SweepResult& result);
@@ -190,7 +190,7 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
   if (sweeps_in_map_ == 1) {
     icp = with_first_sweep_compensated(prepared, std::move(icp), dt_s, sigma_th_m);
   }
-  record(icp, prepared.source.size(), result.stats);
+  record(icp, result.stats);
   result.stats.times.registration_ms = clock_.lap_ms();
 
   // Health, adaptive threshold (III-C) and local map.
@@ -202,7 +202,7 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
   if (result.status == OdometryStatus::kLost) {
     lose(prepared, predicted, result);
   } else {
-    accept(prepared, icp, init.T_odom_lidar, score, result);
+    accept(prepared, icp, init.T_odom_lidar, dt_s, score, result);
   }
   result.stats.times.map_ms = clock_.lap_ms();
 }
@@ -248,12 +248,11 @@ IcpResult Odometry::Impl::with_first_sweep_compensated(const PreparedSweep& prep
   return icp;
 }
 
-void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp, const SE3& T_init, double score,
-                            SweepResult& result) {
+void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp, const SE3& T_init, double dt_s,
+                            double score, SweepResult& result) {
   const SE3 previous = state_.T_odom_lidar;
-  const double period_s = static_cast<double>(result.stamp_ns - trajectory_.back().stamp_ns) * 1e-9;
   const bool degenerate = result.status == OdometryStatus::kDegenerate;
-  result.covariance = pose_covariance_.of(icp, degenerate, state_.twist, prepared.source.timed() ? period_s : 0.0);
+  result.covariance = pose_covariance_.of(icp, degenerate, state_.twist, prepared.source.timed() ? dt_s : 0.0);
   state_ = icp.state;
   state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
   const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());

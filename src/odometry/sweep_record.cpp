@@ -19,11 +19,11 @@ void record(const InitialPose& init, SweepStats& stats) {
   stats.prediction_score = init.prediction_score;
 }
 
-void record(const IcpResult& icp, std::size_t source_points, SweepStats& stats) {
+void record(const IcpResult& icp, SweepStats& stats) {
   stats.iterations = icp.iterations;
   stats.converged = icp.converged;
   stats.inliers = icp.inliers;
-  stats.inlier_ratio = static_cast<double>(icp.inliers) / static_cast<double>(source_points);
+  stats.inlier_ratio = static_cast<double>(icp.inliers) / static_cast<double>(stats.points_source);
   stats.residual_rms_m = icp.residual_rms_m;
   for (std::size_t i = 0; i < stats.relative_eigenvalues.size(); ++i) {
     stats.relative_eigenvalues[i] = icp.degeneracy.relative_eigenvalues[static_cast<Eigen::Index>(i)];

@@ -10,7 +10,7 @@ namespace rilo {
 
 void record(const SweepView& sweep, const PreparedSweep& prepared, SweepStats& stats);
 void record(const InitialPose& init, SweepStats& stats);
-/// `source_points`: what was registered.
-void record(const IcpResult& icp, std::size_t source_points, SweepStats& stats);
+/// After the record of the prepared sweep.
+void record(const IcpResult& icp, SweepStats& stats);
 
 }  // namespace rilo

@@ -1,4 +1,4 @@
-// A run as a recording that Foxglove and ROS 2 open.
+// A run as a recording with the message types of ROS 2, which Foxglove knows.
 #pragma once
 
 #include <filesystem>

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
+
+#include "io/raw_bytes.hpp"
 
 namespace rilo::detail {
 
@@ -15,9 +16,7 @@ class CdrWriter {
   CdrWriter& put(T value) {
     const std::size_t written = bytes_.size() - kEncapsulation;
     bytes_.append((sizeof(T) - written % sizeof(T)) % sizeof(T), '\0');
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    bytes_.append(raw, sizeof(T));
+    append_bytes(bytes_, value);
     return *this;
   }
 

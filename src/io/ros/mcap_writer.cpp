@@ -1,9 +1,9 @@
 #include "io/ros/mcap_writer.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <zlib.h>
 
+#include "io/raw_bytes.hpp"
 #include "io/ros/mcap_records.hpp"
 
 namespace rilo::detail {
@@ -18,9 +18,7 @@ class Fields {
  public:
   template <typename T>
   Fields& put(T value) {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    bytes_.append(raw, sizeof(T));
+    append_bytes(bytes_, value);
     return *this;
   }
   Fields& text(std::string_view text) { return put(static_cast<std::uint32_t>(text.size())).raw(text); }

@@ -5,6 +5,7 @@
 #include "io/ros/cdr_writer.hpp"
 #include "io/ros/mcap_writer.hpp"
 #include "io/stamp_difference.hpp"
+#include "io/unit_quaternion.hpp"
 
 namespace rilo {
 namespace {
@@ -64,7 +65,7 @@ void put_vector(CdrWriter& cdr, const Eigen::Vector3d& v) { cdr.put(v.x()).put(v
 
 // Position or translation, then the rotation.
 void put_pose(CdrWriter& cdr, const SE3& T) {
-  const Eigen::Quaterniond q = Eigen::Quaterniond(T.linear()).normalized();
+  const Eigen::Quaterniond q = detail::unit_quaternion(T);
   put_vector(cdr, T.translation());
   cdr.put(q.x()).put(q.y()).put(q.z()).put(q.w());
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <sys/resource.h>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -43,13 +44,6 @@ double peak_rss_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-std::optional<std::size_t> sweeps_to_do(const RunFlags& flags, const ScanSource& source) {
-  std::optional<std::size_t> total = source.size();
-  if (total) *total -= std::min(*total, flags.start);
-  if (flags.count > 0) total = std::min(total.value_or(flags.count), flags.count);
-  return total;
-}
-
 // The very first sweep is put into the map before the velocity is known: its points are smeared when they have times.
 bool belongs_in_map(const SweepResult& result, const Sweep& sweep) {
   switch (result.status) {
@@ -65,11 +59,12 @@ bool belongs_in_map(const SweepResult& result, const Sweep& sweep) {
 
 class SweepLoop {
  public:
-  SweepLoop(const RunFlags& flags, ScanSource& source, PartialPoses& partial, RunRecord& run)
+  SweepLoop(const RunFlags& flags, ScanSource& source, PartialPoses& partial, RunRecord& run, LiveView* view)
       : flags_(flags),
         source_(source),
         partial_(partial),
         run_(run),
+        view_(view),
         odometry_(run.config, steady_ns),
         map_wanted_(!flags.map.empty() || (!flags.out.empty() && !flags.no_report)),
         map_(flags.map.empty() ? kPictureVoxelM : kMapVoxelM),
@@ -107,7 +102,7 @@ class SweepLoop {
  private:
   // False at the end of the data.
   bool step() {
-    const std::optional<Sweep> sweep = source_.next();
+    std::optional<Sweep> sweep = source_.next();
     show_warnings();
     if (!sweep) return false;
     check_point_times(flags_.source, *sweep, source_.current_name());
@@ -118,6 +113,7 @@ class SweepLoop {
     if (map_wanted_ && belongs_in_map(result, *sweep)) map_.add(odometry_.last_map_points(), result.T_odom_lidar);
     const bool usual = result.status == OdometryStatus::kOk;
     progress_.update(run_.results.size(), usual ? "" : std::string(to_string(result.status)));
+    if (view_ != nullptr) view_->show(source_.current_index(), result, std::move(*sweep));
     return true;
   }
 
@@ -141,6 +137,7 @@ class SweepLoop {
   ScanSource& source_;
   PartialPoses& partial_;
   RunRecord& run_;
+  LiveView* view_;
   Odometry odometry_;
   bool map_wanted_;  // for the file or the report
   ThinnedMap map_;
@@ -150,8 +147,15 @@ class SweepLoop {
 
 }  // namespace
 
-void run_sweeps(const RunFlags& flags, ScanSource& source, PartialPoses& partial, RunRecord& run) {
-  SweepLoop(flags, source, partial, run).run();
+std::optional<std::size_t> sweeps_to_do(const RunFlags& flags, const ScanSource& source) {
+  std::optional<std::size_t> total = source.size();
+  if (total) *total -= std::min(*total, flags.start);
+  if (flags.count > 0) total = std::min(total.value_or(flags.count), flags.count);
+  return total;
+}
+
+void run_sweeps(const RunFlags& flags, ScanSource& source, PartialPoses& partial, RunRecord& run, LiveView* view) {
+  SweepLoop(flags, source, partial, run, view).run();
 }
 
 }  // namespace rilo::cli

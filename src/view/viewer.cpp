@@ -38,8 +38,9 @@ class Viewer::Impl {
         server_(io_, options.address, options.port, hub_) {
     url_ = shown_url();
     server_.start();
-    thread_ = std::thread([this] {
-      setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);  // of this thread alone, on Linux
+    thread_ = std::thread([this, polite = options.share < 1.0] {
+      // Of this thread alone, on Linux.
+      if (polite) setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
       io_.run();
     });
   }

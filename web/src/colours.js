@@ -1,13 +1,13 @@
-// Colour scales: equally perceptible steps, also for most colour-blind eyes.
+// Colour scales.
 const STOPS = {
-  // dark to bright: viridis-like, without its darkest end, which a dark ground would swallow
-  scale: ['#4c5bd4', '#2f8ee0', '#1fb8c4', '#35d08a', '#a6dd3b', '#fde64a'],
+  // without the dark ends, which a dark ground would swallow
+  scale: ['#2f7bff', '#18b6f2', '#22dfb8', '#8ff05f', '#ffe14d', '#ff9d4a', '#ff6b6b'],
   // the same hues for a light ground
-  scaleLight: ['#3b2f9e', '#1f62b5', '#087f8c', '#167a46', '#6d7a00', '#a35a00'],
+  scaleLight: ['#1740b8', '#0b6fc2', '#00857f', '#2b7d1e', '#8a6d00', '#b84a00', '#b3152f'],
   // small is calm, large is loud
   residual: ['#2f8ee0', '#7fb7d9', '#e8d36a', '#f5953a', '#ee3d3d'],
   residualLight: ['#1f62b5', '#4f86a8', '#a08a10', '#c8601a', '#c01818'],
-  map: ['#3d4d61', '#50657d', '#71879e', '#95a8bb', '#b4c4d3'],
+  map: ['#334155', '#43546a', '#64788f', '#8b9db0', '#b3c0cd'],
   mapLight: ['#b3bec9', '#97a6b4', '#7d8fa0', '#61758a', '#485d73'],
 };
 

@@ -1,9 +1,9 @@
 // The map: blocks of points, each with the sweep it was first seen in, so that seeking is a number in the shader.
 import {
-  BufferAttribute, BufferGeometry, DataTexture, DynamicDrawUsage, Group, Points, ShaderMaterial, Sphere, Vector3,
+  BufferAttribute, BufferGeometry, Color, DataTexture, DynamicDrawUsage, Group, Points, ShaderMaterial, Sphere, Vector3,
 } from 'three';
 import { table } from './colours.js';
-import { onTheme } from './theme.js';
+import { colour, onTheme } from './theme.js';
 
 const BLOCK = 16384;
 
@@ -23,6 +23,7 @@ const VERTEX = `
 attribute vec2 seen; // number of the sweep, height over the sensor then
 uniform float shown, pixels, size, most, ratio;
 uniform sampler2D scale;
+uniform vec3 ground;
 varying vec3 tint;
 void main() {
   vec4 eye = modelViewMatrix * vec4(position, 1.0);
@@ -31,6 +32,7 @@ void main() {
   gl_PointSize = clamp(pixels * size / -eye.z, 1.2 * ratio, most * ratio);
   float level = clamp((seen.y + 2.2) / 10.0, 0.0, 1.0);
   tint = texture2D(scale, vec2(sqrt(level) * 0.99 + 0.005, 0.5)).rgb;
+  tint = mix(tint, ground, 0.75 * smoothstep(70.0, 320.0, -eye.z)); // the air between
 }`;
 const FRAGMENT = `
 varying vec3 tint;
@@ -73,13 +75,14 @@ export class MapLayer {
     this.material = new ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
-      uniforms: { shown: { value: 0 }, pixels: { value: 1 }, size: { value: 0.2 }, most: { value: 3 }, ratio: { value: 1 },
-        scale: { value: this.texture } },
+      uniforms: { shown: { value: 0 }, pixels: { value: 1 }, size: { value: 0.2 }, most: { value: 2.4 }, ratio: { value: 1 },
+        scale: { value: this.texture }, ground: { value: new Color() } },
     });
     stage.scene.add(this.group);
     onTheme((light) => {
       this.texture.image.data.set(table(light ? 'mapLight' : 'map'));
       this.texture.needsUpdate = true;
+      this.material.uniforms.ground.value.set(colour('ground')).convertLinearToSRGB();
       stage.dirty = true;
     });
   }

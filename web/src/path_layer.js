@@ -8,7 +8,8 @@ import { colour, onTheme } from './theme.js';
 /// A line of constant width on the screen that grows at its end and is drawn up to any of its points.
 class Path {
   constructor(scene, width, name) {
-    this.material = new LineMaterial({ linewidth: width, worldUnits: false });
+    // Where both lie on one another the one drawn later is seen.
+    this.material = new LineMaterial({ linewidth: width, worldUnits: false, transparent: true, depthWrite: false });
     this.name = name;
     this.mesh = new LineSegments2(new LineSegmentsGeometry(), this.material);
     this.mesh.frustumCulled = false;

@@ -20,7 +20,7 @@ function ring(radius) {
 
 function arrow() {
   const shape = new Shape();
-  shape.moveTo(2.6, 0).lineTo(-1.6, 1.5).lineTo(-0.8, 0).lineTo(-1.6, -1.5).closePath();
+  shape.moveTo(1.5, 0).lineTo(-0.9, 0.85).lineTo(-0.45, 0).lineTo(-0.9, -0.85).closePath();
   return new Mesh(new ShapeGeometry(shape), new MeshBasicMaterial({ side: 2 }));
 }
 
@@ -83,7 +83,7 @@ export class Stage {
     this.controls.enablePan = mode !== 'follow';
     const at = this.sensor.position;
     const yaw = this.heading ?? 0;
-    const offset = mode === 'top' ? new Vector3(-0.1, 0, 110) : new Vector3(-27, 9, 17);
+    const offset = mode === 'top' ? new Vector3(-0.1, 0, 110) : new Vector3(-31, 8, 19);
     if (mode !== 'top') offset.applyAxisAngle(UP, yaw);
     if (mode !== 'orbit') {
       this.controls.target.copy(at);

@@ -39,7 +39,7 @@ class Strip {
     const axis = { stroke: colour('muted'), font: '11px system-ui', ticks: { show: false }, grid };
     this.plot = new uPlot({
       width: this.box.clientWidth || 300,
-      height: 88,
+      height: 72,
       legend: { show: false },
       cursor: { show: false },
       padding: [4, PAD.right, 0, 0],
@@ -70,7 +70,7 @@ export class Strips {
     this.strips = STRIPS.map((spec) => new Strip(parent, spec, seek));
     onTheme(() => this.strips.forEach((strip) => strip.draw()));
     new ResizeObserver(() => this.strips.forEach((strip) => {
-      strip.plot.setSize({ width: strip.box.clientWidth || 300, height: 88 });
+      strip.plot.setSize({ width: strip.box.clientWidth || 300, height: 72 });
     })).observe(parent);
   }
 

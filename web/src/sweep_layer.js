@@ -12,7 +12,7 @@ varying vec3 tint;
 void main() {
   vec4 eye = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * eye;
-  gl_PointSize = clamp(pixels * size / -eye.z, 2.0 * ratio, 5.0 * ratio);
+  gl_PointSize = clamp(pixels * size / -eye.z, 2.2 * ratio, 5.0 * ratio);
   tint = level < 0.0 ? none : texture2D(scale, vec2(level * 0.99 + 0.005, 0.5)).rgb;
 }`;
 const FRAGMENT = `
@@ -97,7 +97,7 @@ export class SweepLayer {
       if (column) level.array[i] = this.mode === 'residual' ? (column[i] - 1) / 254 : column[i] / 255;
       else if (this.mode === 'height') {
         const z = this.frame.positions[3 * i + 2] * this.frame.scale;
-        level.array[i] = Math.min(1, Math.max(0, (z - HEIGHT[0]) / (HEIGHT[1] - HEIGHT[0])));
+        level.array[i] = Math.sqrt(Math.min(1, Math.max(0, (z - HEIGHT[0]) / (HEIGHT[1] - HEIGHT[0]))));
       } else level.array[i] = -1;
     }
     level.needsUpdate = true;

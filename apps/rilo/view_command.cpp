@@ -104,7 +104,7 @@ void send_map(LiveView& view, const RecordedRun& run, const fs::path& folder) {
   view.viewer().add_map(points, first_seen(points, run.results));
 }
 
-int view(ViewFlags flags) {
+int replay(ViewFlags flags) {
   const fs::path folder = flags.results;
   const RecordedRun run = read_recorded_run(folder);
   const std::string data = flags.data.empty() ? run.metrics.value("data", std::string()) : flags.data;
@@ -142,7 +142,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
   add_address_flag(*command, "--address", flags->options);
   command->add_flag("--no-truth", flags->no_truth, "do not look for ground truth");
   add_source_flags(*command, flags->source);
-  command->callback([flags, &exit_code] { exit_code = view(*flags); });
+  command->callback([flags, &exit_code] { exit_code = replay(*flags); });
 }
 
 }  // namespace rilo::cli

@@ -69,7 +69,7 @@ class CsvRow {
   std::vector<std::string> cells_;
 };
 
-std::vector<std::string> cells_of(const std::string& line) {
+std::vector<std::string> csv_cells(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream stream(line);
   for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
@@ -124,9 +124,9 @@ void read_sweeps(const fs::path& file, RecordedRun& run) {
   std::string line;
   if (!std::getline(stream, line)) throw IoError({file, "", "nothing that can be read", "a line a sweep", kRemedy});
   std::map<std::string, std::size_t> columns;
-  for (const std::string& name : cells_of(line)) columns.emplace(name, columns.size());
+  for (const std::string& name : csv_cells(line)) columns.emplace(name, columns.size());
   for (std::size_t number = 2; std::getline(stream, line); ++number) {
-    std::vector<std::string> cells = cells_of(line);
+    std::vector<std::string> cells = csv_cells(line);
     if (cells.size() != columns.size()) {
       throw IoError({file, fmt::format("line {}", number), fmt::format("{} values", cells.size()),
                      fmt::format("{}", columns.size()), kRemedy});

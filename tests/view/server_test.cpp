@@ -2,11 +2,13 @@
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
+#include <cstring>
 #include <memory>
 #include <set>
 #include <string>
@@ -262,7 +264,7 @@ TEST(ViewServer, APageThatNeverReadsHoldsNobodyUp) {
     } while (number != last);
   }
   EXPECT_GE(seen.size(), 30U);
-  EXPECT_EQ(server.hub().clients, 2U);
+  EXPECT_EQ(server.hub().clients.load(), 2U);
 }
 
 TEST(ViewServer, SoManyPagesAndNoMore) {
@@ -275,8 +277,8 @@ TEST(ViewServer, SoManyPagesAndNoMore) {
   EXPECT_NE(answer(server, get("/ws", server.host(), upgrade("http://" + server.host()))).find(" 503 "),
             std::string::npos);
   pages.clear();
-  for (int i = 0; i < 500 && server.hub().clients > 0; ++i) std::this_thread::sleep_for(10ms);
-  EXPECT_EQ(server.hub().clients, 0U);
+  for (int i = 0; i < 500 && server.hub().clients.load() > 0; ++i) std::this_thread::sleep_for(10ms);
+  EXPECT_EQ(server.hub().clients.load(), 0U);
   EXPECT_EQ(Page(server).read().at(0), 1U);
 }
 

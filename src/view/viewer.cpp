@@ -33,7 +33,8 @@ constexpr int kNice = 10;          // the odometry goes first
 class Viewer::Impl {
  public:
   Impl(const ViewInfo& info, const ViewOptions& options)
-      : hub_(info, options, view::is_loopback(options.address)),
+      : unhurried_(options.share >= 1.0),
+        hub_(info, options, view::is_loopback(options.address)),
         work_(asio::make_work_guard(io_)),
         server_(io_, options.address, options.port, hub_) {
     url_ = shown_url();
@@ -71,7 +72,7 @@ class Viewer::Impl {
     // Shared, since handlers of this library's older versions are copied.
     auto shared = std::make_shared<const ViewSweep>(std::move(sweep));
     asio::post(io_, [this, shared = std::move(shared), drop, counted = has_points && !drop] {
-      hub_.history.add(*shared, hub_.clients > 0);
+      hub_.history.add(*shared, unhurried_ || hub_.clients > 0);
       if (drop) hub_.history.count_dropped();
       hub_.dropped = hub_.history.progress().dropped;
       if (counted) {
@@ -113,6 +114,7 @@ class Viewer::Impl {
     return fmt::format("http://{}:{}/{}", host, endpoint.port(), token.empty() ? "" : "?token=" + token);
   }
 
+  bool unhurried_;  // residuals also while nobody looks
   view::Hub hub_;
   asio::io_context io_{1};
   asio::executor_work_guard<asio::io_context::executor_type> work_;

@@ -17,6 +17,7 @@ std::optional<std::size_t> sweeps_to_do(const RunFlags& flags, const ScanSource&
 
 /// Runs the odometry over `source` until the data, --count, a signal or an error ends it, and fills what is known then
 /// into `run`. An error keeps what was done before it: it stands in run.error. `view`: is shown every sweep, or null.
-void run_sweeps(const RunFlags& flags, ScanSource& source, PartialPoses& partial, RunRecord& run, LiveView* view);
+void run_sweeps(const RunFlags& flags, ScanSource& source, PartialPoses& partial, RunRecord& run,
+                LiveView* view = nullptr);
 
 }  // namespace rilo::cli

@@ -68,9 +68,9 @@ void run(const RunFlags& flags, const BenchSequence& sequence, RunRecord& record
   record.data = flags.data;
   const auto truth = truth_file(sequence);
   if (truth) read_poses(truth->file);  // rather found out now than after the run
-  const auto source = open_scan_source(flags.data, flags.source.options);
+  auto source = open_scan_source(flags.data, flags.source.options);
   PartialPoses no_partial({});
-  run_sweeps(flags, *source, no_partial, record);
+  run_sweeps(flags, std::move(source), no_partial, record);
   if (record.signal != 0) return;
   if (!record.error.empty()) throw CommandError(record.error_code, record.error);
   evaluate_run(record, truth);

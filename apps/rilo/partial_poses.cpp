@@ -12,6 +12,10 @@ namespace rilo::cli {
 PartialPoses::PartialPoses(const std::filesystem::path& folder) {
   if (folder.empty()) return;
   file_ = folder / "poses_lidar.partial.txt";
+  open();
+}
+
+void PartialPoses::open() {
   stream_.open(file_, std::ios::binary | std::ios::trunc);
   if (!stream_) throw CommandError(kCannotWrite, file_.string() + ": cannot be opened for writing");
 }
@@ -26,6 +30,12 @@ void PartialPoses::add(const SE3& T_odom_lidar) {
   }
   stream_ << line + "\n" << std::flush;
   if (!stream_) throw CommandError(kCannotWrite, file_.string() + ": cannot be written; is the disk full?");
+}
+
+void PartialPoses::start_over() {
+  if (file_.empty()) return;
+  stream_.close();
+  open();
 }
 
 void PartialPoses::remove() {

@@ -18,9 +18,14 @@ class PartialPoses {
   /// @throws CommandError(kCannotWrite) when the disk is full.
   void add(const SE3& T_odom_lidar);
 
+  /// Forgets the poses so far. @throws CommandError(kCannotWrite)
+  void start_over();
+
   void remove();
 
  private:
+  void open();
+
   std::filesystem::path file_;
   std::ofstream stream_;
 };

@@ -1,6 +1,7 @@
 // rilo run: odometry over recorded sweeps.
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -63,11 +64,11 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   run.command_line = command_line;
   run.data = flags.data;
   run.config = configuration(flags);
-  const auto source = open_scan_source(flags.data, flags.source.options);
+  auto source = open_scan_source(flags.data, flags.source.options);
   prepare_outputs(flags);
   const InterruptGuard guard;
   PartialPoses partial(flags.out);
-  run_sweeps(flags, *source, partial, run);
+  run_sweeps(flags, std::move(source), partial, run);
   if (run.results.empty() && run.signal == 0) {
     partial.remove();
     throw CommandError(run.error_code, run.error);
@@ -100,6 +101,8 @@ void add_flags(CLI::App& command, RunFlags& flags) {
       .add_option("--threads", flags.threads,
                   "threads; 0: as many as the machine has; the results do not depend on it. Default: as configured")
       ->check(whole_number(1024));
+  command.add_flag("--one-pass", flags.one_pass,
+                   "do not start over when the sensor's elevation error has become certain: the poses of a live run");
   command.add_flag("--quiet", flags.quiet, "no progress, no warnings, no summary");
   command.add_flag("--json", flags.json, "print metrics.json instead of the summary");
   command.add_flag("--no-report", flags.no_report, "do not write report.html");

@@ -22,6 +22,7 @@ struct RunFlags {
   bool json = false;
   bool no_report = false;
   bool no_truth = false;
+  bool one_pass = false;
   SourceFlags source;
 };
 

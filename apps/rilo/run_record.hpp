@@ -30,8 +30,9 @@ struct RunRecord {
   std::string command_line;
   std::filesystem::path data;
   SourceInfo source;
-  OdometryConfig config;
+  OdometryConfig config;  ///< that led to `results`: with the elevation error, when the run started over
   int threads = 0;
+  std::optional<std::size_t> started_over_after;  ///< sweeps, when the sensor's elevation error had become certain
   std::vector<SweepResult> results;
   std::vector<std::size_t> indices;  ///< place of each sweep in the data
   PoseInstant pose_instant = PoseInstant::kMid;

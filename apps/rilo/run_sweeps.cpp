@@ -4,17 +4,20 @@
 #include <chrono>
 #include <exception>
 #include <fstream>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
 #include <sys/resource.h>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "rilo/cloud/thinned_map.hpp"
+#include "rilo/geometry/degrees.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/odometry/odometry.hpp"
 
@@ -23,7 +26,8 @@ namespace rilo::cli {
 namespace {
 
 constexpr double kMapVoxelM = 0.2;
-constexpr double kPictureVoxelM = 0.75;  // enough for the report's picture of the map
+constexpr double kPictureVoxelM = 0.75;        // enough for the report's picture of the map
+constexpr std::size_t kStartOverWithin = 200;  // sweeps: later, the beginning is a small part of the run
 
 std::int64_t steady_ns() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
@@ -65,23 +69,25 @@ bool belongs_in_map(const SweepResult& result, const Sweep& sweep) {
 
 class SweepLoop {
  public:
-  SweepLoop(const RunFlags& flags, ScanSource& source, PartialPoses& partial, RunRecord& run)
+  SweepLoop(const RunFlags& flags, std::unique_ptr<ScanSource> source, PartialPoses& partial, RunRecord& run)
       : flags_(flags),
-        source_(source),
+        source_(std::move(source)),
         partial_(partial),
         run_(run),
         odometry_(run.config, steady_ns),
         map_wanted_(!flags.map.empty() || (!flags.out.empty() && !flags.no_report)),
-        map_(flags.map.empty() ? kPictureVoxelM : kMapVoxelM),
-        progress_("rilo", sweeps_to_do(flags, source), flags.quiet) {}
+        map_voxel_m_(flags.map.empty() ? kPictureVoxelM : kMapVoxelM),
+        map_(map_voxel_m_),
+        progress_("rilo", sweeps_to_do(flags, *source_), flags.quiet) {}
 
   void run() {
     const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
     run_.threads = run_.config.threads > 0 ? run_.config.threads : static_cast<int>(processors);
     const std::int64_t begin = steady_ns();
     try {
-      source_.skip(flags_.start);
+      source_->skip(flags_.start);
       while (InterruptGuard::signal() == 0 && (flags_.count == 0 || run_.results.size() < flags_.count) && step()) {
+        if (start_over_due()) start_over();
       }
     } catch (const CommandError& error) {
       fail(error.code(), error.what());
@@ -96,7 +102,7 @@ class SweepLoop {
     run_.signal = InterruptGuard::signal();
     run_.wall_s = static_cast<double>(steady_ns() - begin) * 1e-9;
     run_.peak_rss_mb = peak_rss_mb();
-    run_.source = source_.info();
+    run_.source = source_->info();
     if (run_.results.empty() && run_.signal == 0 && run_.error.empty()) {
       fail(kBadData, fmt::format("{}: no sweep to run ({} could not be read, --start is {})", run_.data.string(),
                                  run_.source.bad_sweeps, flags_.start));
@@ -107,13 +113,13 @@ class SweepLoop {
  private:
   // False at the end of the data.
   bool step() {
-    const std::optional<Sweep> sweep = source_.next();
+    const std::optional<Sweep> sweep = source_->next();
     show_warnings();
     if (!sweep) return false;
-    check_point_times(flags_.source, *sweep, source_.current_name());
+    check_point_times(flags_.source, *sweep, source_->current_name());
     const SweepResult result = odometry_.register_sweep(*sweep);
     run_.results.push_back(result);
-    run_.indices.push_back(source_.current_index());
+    run_.indices.push_back(source_->current_index());
     partial_.add(result.T_odom_lidar);
     if (map_wanted_ && belongs_in_map(result, *sweep)) map_.add(odometry_.last_map_points(), result.T_odom_lidar);
     const bool usual = result.status == OdometryStatus::kOk;
@@ -121,9 +127,31 @@ class SweepLoop {
     return true;
   }
 
+  // The elevation error has just become certain, and the sweeps before were registered without its correction.
+  bool start_over_due() const {
+    const bool corrected = run_.results.back().stats.elevation_applied_rad != 0.0;
+    return !flags_.one_pass && !run_.started_over_after && corrected && run_.config.elevation.initial_deg == 0.0 &&
+           run_.results.size() <= kStartOverWithin;
+  }
+
+  void start_over() {
+    run_.started_over_after = run_.results.size();
+    run_.config.elevation.initial_deg = kDegPerRad * run_.results.back().stats.elevation_offset_rad;
+    progress_.say(
+        fmt::format("rilo: the sensor's elevation error is certain after {} sweeps: starting over with {:+.3f} deg",
+                    run_.results.size(), run_.config.elevation.initial_deg));
+    run_.results.clear();
+    run_.indices.clear();
+    source_ = open_scan_source(flags_.data, flags_.source.options);
+    source_->skip(flags_.start);
+    partial_.start_over();
+    odometry_ = Odometry(run_.config, steady_ns);
+    map_ = ThinnedMap(map_voxel_m_);
+  }
+
   // As they come: a run may take hours.
   void show_warnings() {
-    const std::vector<std::string> warnings = source_.info().warnings;
+    const std::vector<std::string> warnings = source_->info().warnings;
     for (const std::string& warning : warnings) {
       if (std::find(shown_.begin(), shown_.end(), warning) == shown_.end()) {
         progress_.say("rilo: warning: " + warning);
@@ -138,11 +166,12 @@ class SweepLoop {
   }
 
   const RunFlags& flags_;
-  ScanSource& source_;
+  std::unique_ptr<ScanSource> source_;
   PartialPoses& partial_;
   RunRecord& run_;
   Odometry odometry_;
   bool map_wanted_;  // for the file or the report
+  double map_voxel_m_;
   ThinnedMap map_;
   Progress progress_;
   std::vector<std::string> shown_;
@@ -150,8 +179,8 @@ class SweepLoop {
 
 }  // namespace
 
-void run_sweeps(const RunFlags& flags, ScanSource& source, PartialPoses& partial, RunRecord& run) {
-  SweepLoop(flags, source, partial, run).run();
+void run_sweeps(const RunFlags& flags, std::unique_ptr<ScanSource> source, PartialPoses& partial, RunRecord& run) {
+  SweepLoop(flags, std::move(source), partial, run).run();
 }
 
 }  // namespace rilo::cli

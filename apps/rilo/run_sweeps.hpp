@@ -1,6 +1,8 @@
 // The loop of a run: sweeps in, results out.
 #pragma once
 
+#include <memory>
+
 #include "partial_poses.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "run_flags.hpp"
@@ -8,8 +10,10 @@
 
 namespace rilo::cli {
 
-/// Runs the odometry over `source` until the data, --count, a signal or an error ends it, and fills what is known then
-/// into `run`. An error keeps what was done before it: it stands in run.error.
-void run_sweeps(const RunFlags& flags, ScanSource& source, PartialPoses& partial, RunRecord& run);
+/// Runs the odometry over `source`, opened from flags.data, until the data, --count, a signal or an error ends it, and
+/// fills what is known then into `run`. An error keeps what was done before it: it stands in run.error. When the
+/// sensor's elevation error becomes certain early, the run starts over with it (run.started_over_after) unless
+/// flags.one_pass: what a robot cannot do, a recording allows.
+void run_sweeps(const RunFlags& flags, std::unique_ptr<ScanSource> source, PartialPoses& partial, RunRecord& run);
 
 }  // namespace rilo::cli

@@ -58,6 +58,7 @@ class Odometry::Impl {
       throw std::invalid_argument("configuration: budget.sweep_ms is set, but the odometry was given no clock");
     }
     preprocessor_.track_beams(config.beams.enabled);
+    preprocessor_.set_elevation_offset(elevation_.applied_rad());
   }
 
   SweepResult register_sweep(const SweepView& sweep) {
@@ -328,10 +329,11 @@ std::int64_t Odometry::Impl::usable_stamp(std::int64_t stamp_ns) const {
 }
 
 void Odometry::Impl::reset() {
-  preprocessor_.reset();
   initial_pose_.reset();
   threshold_.reset();
   elevation_.reset();
+  preprocessor_.reset();
+  preprocessor_.set_elevation_offset(elevation_.applied_rad());
   beams_.reset();
   budget_.reset();
   pose_covariance_.reset();

@@ -54,6 +54,7 @@ void expect_metrics(const json& metrics) {
   EXPECT_TRUE(metrics.contains("elevation_offset_deg"));
   EXPECT_TRUE(metrics.contains("elevation_offset_sigma_deg"));
   EXPECT_EQ(metrics["elevation_offset_applied_deg"], 0.0);
+  EXPECT_TRUE(metrics.at("started_over_after_sweeps").is_null());
   EXPECT_EQ(metrics["motion_compensation"], true);
   EXPECT_EQ(metrics["warnings"], json::array());
   std::size_t sweeps = 0;

@@ -89,8 +89,13 @@ void add_flags(CLI::App& command, RunFlags& flags) {
       ->check(path_given());
   command.add_option("--set", flags.settings, "key=value, repeatable; overrides the file")->allow_extra_args(false);
   command.add_option("--out", flags.out, "folder for the results (created)")->check(path_given());
-  command.add_option("--map", flags.map, "map of the whole run, .ply or .pcd, a point every 0.2 m")
+  command.add_option("--map", flags.map, "map of the whole run, .ply or .pcd, with a point in each voxel")
       ->check(path_given());
+  command.add_option("--map-voxel", flags.map_voxel_m, "edge of the map's voxels, m")
+      ->check(number_within(0.001, 100))
+      ->capture_default_str();
+  command.add_flag("--map-normals", flags.map_normals, "the map has normals, towards where the surface was seen from");
+  command.add_flag("--map-intensity", flags.map_intensity, "the map has intensities");
   command.add_option("--start", flags.start, "leave out that many sweeps")
       ->check(whole_number())
       ->capture_default_str();

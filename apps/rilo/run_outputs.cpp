@@ -35,6 +35,9 @@ void write_poses(const fs::path& folder, const RunRecord& run) {
   write_tum(folder / "trajectory.tum", trajectory);
   write_euroc(folder / "trajectory.csv", trajectory);
   write_mcap(folder / "trajectory.mcap", run.results);
+  if (can_write_bags()) {
+    write_bag(folder / "trajectory.bag", run.results);
+  }
   if (run.source.T_cam_lidar) {
     write_kitti_poses_camera(folder / "poses_camera.txt", trajectory, *run.source.T_cam_lidar);
   } else {

@@ -25,7 +25,6 @@ namespace rilo::cli {
 
 namespace {
 
-constexpr double kMapVoxelM = 0.2;
 constexpr double kPictureVoxelM = 0.75;        // enough for the report's picture of the map
 constexpr std::size_t kStartOverWithin = 200;  // sweeps: later, the beginning is a small part of the run
 
@@ -74,9 +73,9 @@ class SweepLoop {
         source_(std::move(source)),
         partial_(partial),
         run_(run),
-        odometry_(run.config, steady_ns),
+        odometry_(new_odometry()),
         map_wanted_(!flags.map.empty() || (!flags.out.empty() && !flags.no_report)),
-        map_voxel_m_(flags.map.empty() ? kPictureVoxelM : kMapVoxelM),
+        map_voxel_m_(flags.map.empty() ? kPictureVoxelM : flags.map_voxel_m),
         map_(map_voxel_m_),
         progress_("rilo", sweeps_to_do(flags, *source_), flags.quiet) {}
 
@@ -107,24 +106,40 @@ class SweepLoop {
       fail(kBadData, fmt::format("{}: no sweep to run ({} could not be read, --start is {})", run_.data.string(),
                                  run_.source.bad_sweeps, flags_.start));
     }
-    if (map_wanted_) run_.map = map_.points().empty() ? odometry_.local_map() : map_.points();
+    if (map_wanted_) run_.map = map_.cloud(flags_.map_normals);
+    if (run_.map.points.empty() && map_wanted_) run_.map.points = odometry_.local_map();
   }
 
  private:
+  Odometry new_odometry() const {
+    Odometry odometry(run_.config, steady_ns);
+    odometry.keep_intensities(flags_.map_intensity);
+    return odometry;
+  }
+
   // False at the end of the data.
   bool step() {
     const std::optional<Sweep> sweep = source_->next();
     show_warnings();
     if (!sweep) return false;
     check_point_times(flags_.source, *sweep, source_->current_name());
+    check_intensities(*sweep);
     const SweepResult result = odometry_.register_sweep(*sweep);
     run_.results.push_back(result);
     run_.indices.push_back(source_->current_index());
     partial_.add(result.T_odom_lidar);
-    if (map_wanted_ && belongs_in_map(result, *sweep)) map_.add(odometry_.last_map_points(), result.T_odom_lidar);
+    if (map_wanted_ && belongs_in_map(result, *sweep)) {
+      map_.add(odometry_.last_map_points(), result.T_odom_lidar, odometry_.last_map_intensities());
+    }
     const bool usual = result.status == OdometryStatus::kOk;
     progress_.update(run_.results.size(), usual ? "" : std::string(to_string(result.status)));
     return true;
+  }
+
+  void check_intensities(const Sweep& sweep) const {
+    if (flags_.map_intensity && sweep.intensities.size() != sweep.points.size()) {
+      throw CommandError(kBadData, source_->current_name() + ": no intensities; leave out --map-intensity");
+    }
   }
 
   // The elevation error has just become certain, and the sweeps before were registered without its correction.
@@ -145,7 +160,7 @@ class SweepLoop {
     source_ = open_scan_source(flags_.data, flags_.source.options);
     source_->skip(flags_.start);
     partial_.start_over();
-    odometry_ = Odometry(run_.config, steady_ns);
+    odometry_ = new_odometry();
     map_ = ThinnedMap(map_voxel_m_);
   }
 

@@ -50,19 +50,6 @@ std::optional<std::size_t> sweeps_to_do(const RunFlags& flags, const ScanSource&
   return total;
 }
 
-// The very first sweep is put into the map before the velocity is known: its points are smeared when they have times.
-bool belongs_in_map(const SweepResult& result, const Sweep& sweep) {
-  switch (result.status) {
-    case OdometryStatus::kLost:
-    case OdometryStatus::kEmpty:
-      return false;
-    case OdometryStatus::kInitialising:
-      return sweep.times_s.empty();
-    default:
-      return true;
-  }
-}
-
 class SweepLoop {
  public:
   SweepLoop(const RunFlags& flags, ScanSource& source, PartialPoses& partial, RunRecord& run)
@@ -115,7 +102,8 @@ class SweepLoop {
     run_.results.push_back(result);
     run_.indices.push_back(source_.current_index());
     partial_.add(result.T_odom_lidar);
-    if (map_wanted_ && belongs_in_map(result, *sweep)) map_.add(odometry_.last_map_points(), result.T_odom_lidar);
+    if (map_wanted_ && belongs_in_map(result.status, !sweep->times_s.empty()))
+      map_.add(odometry_.last_map_points(), result.T_odom_lidar);
     const bool usual = result.status == OdometryStatus::kOk;
     progress_.update(run_.results.size(), usual ? "" : std::string(to_string(result.status)));
     return true;

@@ -13,14 +13,20 @@
 namespace rilo::ros1 {
 namespace {
 
+constexpr const char* kCloudTopic = "points";
 constexpr const char* kCloudType = "sensor_msgs/PointCloud2";
 constexpr std::uint32_t kQueueOfPublishers = 1000;
 constexpr double kReportPeriodS = 1;
 
+std::shared_ptr<LiveQueue> queue_for(const ros::NodeHandle& node, LiveQueueOptions options) {
+  options.topic = node.resolveName(kCloudTopic);
+  return std::make_shared<LiveQueue>(options);
+}
+
 }  // namespace
 
 OdometryNode::OdometryNode(const NodeOptions& options)
-    : options_(options), queue_(std::make_shared<LiveQueue>(options.queue)), session_(options, queue_) {
+    : options_(options), queue_(queue_for(node_, options.queue)), session_(options, queue_) {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("odometry", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
     health_.report(queue_->counts(), status);
@@ -52,7 +58,8 @@ void OdometryNode::advertise() {
                private_node_.advertiseService("save_map", &OdometryNode::on_save_map, this)};
   pose_subscriber_ = node_.subscribe("initialpose", 1, &OdometryNode::on_initial_pose, this);
   // 0: nothing is dropped unseen before it is in our queue, where it is counted.
-  cloud_subscriber_ = node_.subscribe("points", 0, &OdometryNode::on_cloud, this, ros::TransportHints().tcpNoDelay());
+  cloud_subscriber_ =
+      node_.subscribe(kCloudTopic, 0, &OdometryNode::on_cloud, this, ros::TransportHints().tcpNoDelay());
 }
 
 void OdometryNode::on_cloud(const topic_tools::ShapeShifter::ConstPtr& message) {

@@ -8,8 +8,9 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "rilo_node");
+  const ros::NodeHandle node_handle("~");  // with the last one goes the log
   try {
-    const rilo::ros1::OdometryNode node(rilo::ros1::read_options(ros::NodeHandle("~")));
+    const rilo::ros1::OdometryNode node(rilo::ros1::read_options(node_handle));
     ros::MultiThreadedSpinner(2).spin();  // saving a map does not keep sweeps waiting
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());

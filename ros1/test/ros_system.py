@@ -79,6 +79,15 @@ class Collector:
         return self.messages
 
 
+def first_of(topic, kind):
+    """What a new subscriber gets first."""
+    collector = Collector(topic, kind)
+    try:
+        return collector.wait(1)[0]
+    finally:
+        collector.subscriber.unregister()
+
+
 @contextmanager
 def running_node(parameters=None, remaps=(), name="rilo", binary=os.environ.get("RILO_NODE", "rilo_node")):
     """The node with parameters of its own; they are gone afterwards."""

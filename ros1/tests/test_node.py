@@ -6,6 +6,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+
+for module in ("rospy", "rosbag", "roslaunch", "tf2_msgs", "nav_msgs", "diagnostic_msgs", "std_srvs"):
+    pytest.importorskip(module)
+
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Pose, PoseWithCovarianceStamped, TransformStamped

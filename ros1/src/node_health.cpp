@@ -70,6 +70,8 @@ void NodeHealth::report(const LiveQueueCounts& queue, diagnostic_updater::Diagno
 void NodeHealth::judge(const LiveQueueCounts& queue, diagnostic_updater::DiagnosticStatusWrapper& status) const {
   if (last_) {
     status.summary(level_of(last_->status), std::string(to_string(last_->status)));
+  } else if (sweeps_ > 0) {
+    status.summary(Level::OK, "reset, no sweep since");
   } else {
     status.summary(Level::OK, queue.received == 0 ? "no sweep yet" : "looking at the first sweeps");
   }

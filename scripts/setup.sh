@@ -17,6 +17,11 @@ build=(build-essential cmake make libeigen3-dev libtbb-dev
 # librosbag-storage brings much of ROS along: without it and ROS' messages everything but ROS 1 bags is read.
 tests=(librosbag-storage-dev libnav-msgs-dev libtf2-msgs-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-dev
        python3-numpy python3-pytest pybind11-dev)
+# The ROS 1 node and its tests; 45 MB.
+ros1=(libroscpp-dev libtopic-tools-dev libtf2-ros-dev libtf2-eigen-dev libdiagnostic-updater-dev libnav-msgs-dev
+      libsensor-msgs-dev libgeometry-msgs-dev libstd-srvs-dev python3-gencpp python3-genpy ros-geometry-msgs ros-std-msgs
+      python3-roslaunch python3-rosbag python3-nav-msgs python3-sensor-msgs python3-diagnostic-msgs python3-tf2-msgs
+      python3-std-srvs)
 lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
 bench=(valgrind)
@@ -42,7 +47,7 @@ for argument in "$@"; do
 done
 
 wanted=("${build[@]}")
-$minimal || wanted+=("${tests[@]}")
+$minimal || wanted+=("${tests[@]}" "${ros1[@]}")
 ! $with_lint || wanted+=("${lint[@]}")
 ! $with_docs || wanted+=("${docs[@]}")
 ! $with_bench || wanted+=("${bench[@]}")

@@ -53,19 +53,6 @@ std::optional<std::size_t> sweeps_to_do(const RunFlags& flags, const ScanSource&
   return total;
 }
 
-// The very first sweep is put into the map before the velocity is known: its points are smeared when they have times.
-bool belongs_in_map(const SweepResult& result, const Sweep& sweep) {
-  switch (result.status) {
-    case OdometryStatus::kLost:
-    case OdometryStatus::kEmpty:
-      return false;
-    case OdometryStatus::kInitialising:
-      return sweep.times_s.empty();
-    default:
-      return true;
-  }
-}
-
 class SweepLoop {
  public:
   SweepLoop(const RunFlags& flags, std::unique_ptr<ScanSource> source, PartialPoses& partial, RunRecord& run)
@@ -128,7 +115,7 @@ class SweepLoop {
     run_.results.push_back(result);
     run_.indices.push_back(source_->current_index());
     partial_.add(result.T_odom_lidar);
-    if (map_wanted_ && belongs_in_map(result, *sweep)) {
+    if (map_wanted_ && belongs_in_map(result.status, !sweep->times_s.empty())) {
       map_.add(odometry_.last_map_points(), result.T_odom_lidar, odometry_.last_map_intensities());
     }
     const bool usual = result.status == OdometryStatus::kOk;

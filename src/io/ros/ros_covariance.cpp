@@ -1,14 +1,22 @@
-#include "io/ros/ros_covariance.hpp"
+#include "rilo/io/ros_covariance.hpp"
 
-namespace rilo::detail {
+namespace rilo {
+namespace {
 
-// Ours has the rotation first and is about the axes of the sensor.
-Matrix6d ros_covariance(const SweepResult& result) {
-  const Eigen::Matrix3d R = result.T_odom_lidar.linear();
+// Swaps rotation and translation, and turns both.
+Matrix6d swapped(const Eigen::Matrix3d& R, const Matrix6d& covariance) {
   Matrix6d turn = Matrix6d::Zero();
   turn.topRightCorner<3, 3>() = R;
   turn.bottomLeftCorner<3, 3>() = R;
-  return turn * result.covariance * turn.transpose();
+  return turn * covariance * turn.transpose();
 }
 
-}  // namespace rilo::detail
+}  // namespace
+
+Matrix6d ros_pose_covariance(const SE3& T_parent_body, const Matrix6d& covariance) {
+  return swapped(T_parent_body.linear(), covariance);
+}
+
+Matrix6d ros_twist_covariance(const Matrix6d& covariance) { return swapped(Eigen::Matrix3d::Identity(), covariance); }
+
+}  // namespace rilo

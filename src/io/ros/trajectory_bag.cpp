@@ -8,11 +8,11 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "io/raw_bytes.hpp"
-#include "io/ros/ros_covariance.hpp"
 #include "io/stamp_difference.hpp"
 #include "io/unit_quaternion.hpp"
 #include "rilo/io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
+#include "rilo/io/ros_covariance.hpp"
 #include "rilo/io/trajectory_recording.hpp"
 
 namespace rilo::detail {
@@ -98,7 +98,8 @@ BagMessage<nav_msgs::Odometry> bag_odometry(const SweepResult& result, std::uint
                                             const RecordingNames& names) {
   BagMessage<nav_msgs::Odometry> message;
   append_stamped_pose(message.bytes, result, number, names);
-  const Matrix6d covariance = detail::ros_covariance(result);  // symmetric: the storage order does not matter
+  const Matrix6d covariance =
+      ros_pose_covariance(result.T_odom_lidar, result.covariance);  // symmetric: the storage order does not matter
   for (const double value : covariance.reshaped()) append_bytes(message.bytes, value);
   append_vector(message.bytes, result.twist.tail<3>());
   append_vector(message.bytes, result.twist.head<3>());

@@ -4,9 +4,9 @@
 
 #include "io/ros/cdr_writer.hpp"
 #include "io/ros/mcap_writer.hpp"
-#include "io/ros/ros_covariance.hpp"
 #include "io/stamp_difference.hpp"
 #include "io/unit_quaternion.hpp"
+#include "rilo/io/ros_covariance.hpp"
 
 namespace rilo {
 namespace {
@@ -75,7 +75,7 @@ std::string odometry_message(const SweepResult& result, const RecordingNames& na
   CdrWriter cdr;
   put_header(cdr, result.stamp_ns, names);
   put_pose(cdr, result.T_odom_lidar);
-  const Matrix6d covariance = detail::ros_covariance(result);
+  const Matrix6d covariance = ros_pose_covariance(result.T_odom_lidar, result.covariance);
   for (Eigen::Index row = 0; row < 6; ++row) {
     for (Eigen::Index column = 0; column < 6; ++column) cdr.put(covariance(row, column));
   }

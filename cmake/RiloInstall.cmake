@@ -16,6 +16,7 @@ set(RILO_PACKAGE_TABLE
   "Threads::Threads=Threads"
   "ZLIB::ZLIB=ZLIB"
   "PNG::PNG=PNG"
+  "Boost::headers=Boost 1.74"
   "SQLite::SQLite3=SQLite3"
   "ZSTD::zstd=ZSTD"
   "LZ4::lz4=LZ4"

@@ -6,6 +6,7 @@
 #   scripts/setup.sh --lint     also clang-format, clang-tidy, gcovr, shellcheck
 #   scripts/setup.sh --docs     also Doxygen
 #   scripts/setup.sh --bench    also Valgrind, which counts instructions
+#   scripts/setup.sh --browser  also Chromium, which the viewer's page is tested in
 #   scripts/setup.sh --fuzz     also Clang with libFuzzer
 #   scripts/setup.sh --print    print the package names instead of installing them
 # shellcheck source-path=SCRIPTDIR
@@ -13,7 +14,10 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 build=(build-essential cmake make libeigen3-dev libtbb-dev
        libcli11-dev libyaml-cpp-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libnanoflann-dev
-       libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev)
+       libboost-dev libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev)
+# Node.js builds the page of the viewer: left out where npm came from elsewhere, which Debian's would conflict with.
+page=()
+command -v npm >/dev/null || page=(nodejs npm)
 # librosbag-storage brings much of ROS along: without it and ROS' messages everything but ROS 1 bags is read.
 tests=(librosbag-storage-dev libnav-msgs-dev libtf2-msgs-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-dev
        python3-numpy python3-pytest pybind11-dev)
@@ -25,6 +29,7 @@ ros1=(libroscpp-dev libtopic-tools-dev libtf2-ros-dev libtf2-eigen-dev libdiagno
 lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
 bench=(valgrind)
+browser=(chromium)
 fuzz=(clang libclang-rt-14-dev)
 
 minimal=false
@@ -32,6 +37,7 @@ with_lint=false
 with_docs=false
 with_bench=false
 with_fuzz=false
+with_browser=false
 print_only=false
 for argument in "$@"; do
   case "$argument" in
@@ -40,17 +46,19 @@ for argument in "$@"; do
     --docs) with_docs=true ;;
     --bench) with_bench=true ;;
     --fuzz) with_fuzz=true ;;
+    --browser) with_browser=true ;;
     --print) print_only=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/setup.sh | grep -v '^shellcheck'; exit 0 ;;
-    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --fuzz --print" ;;
+    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --browser --fuzz --print" ;;
   esac
 done
 
 wanted=("${build[@]}")
-$minimal || wanted+=("${tests[@]}" "${ros1[@]}")
+$minimal || wanted+=("${tests[@]}" "${ros1[@]}" "${page[@]}")
 ! $with_lint || wanted+=("${lint[@]}")
 ! $with_docs || wanted+=("${docs[@]}")
 ! $with_bench || wanted+=("${bench[@]}")
+! $with_browser || wanted+=("${browser[@]}")
 ! $with_fuzz || wanted+=("${fuzz[@]}")
 if $print_only; then
   printf '%s\n' "${wanted[@]}"

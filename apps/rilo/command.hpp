@@ -36,6 +36,7 @@ void add_eval_command(CLI::App& app, int& exit_code);
 void add_quality_command(CLI::App& app, int& exit_code);
 void add_simulate_command(CLI::App& app, int& exit_code);
 void add_config_command(CLI::App& app, int& exit_code);
+void add_view_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
 
 }  // namespace rilo::cli

@@ -15,6 +15,8 @@ constexpr const char* kFooter = R"(Examples:
   rilo run drive --out results --map results/map.ply        odometry, map, figures, report.html
   rilo eval drive results/poses_lidar.txt                   errors against ground truth
   rilo quality drive results/poses_lidar.txt                how crisp the map is; needs no ground truth
+  rilo run drive --view                                     watch it in a browser while it runs
+  rilo view results                                         look at it again
   rilo bench experiments/ablation.yaml --data drive         several configurations on several drives
   rilo config --dump > my.yaml                              every key with its unit and meaning
 
@@ -38,6 +40,7 @@ int main(int argc, char** argv) {
   cli::add_run_command(app, cli::command_line(argc, argv), exit_code);
   cli::add_eval_command(app, exit_code);
   cli::add_bench_command(app, cli::command_line(argc, argv), exit_code);
+  cli::add_view_command(app, exit_code);
   cli::add_quality_command(app, exit_code);
   cli::add_simulate_command(app, exit_code);
   cli::add_config_command(app, exit_code);

@@ -1,6 +1,7 @@
 // rilo run: odometry over recorded sweeps.
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include "run_record.hpp"
 #include "run_sweeps.hpp"
 #include "text.hpp"
+#include "view_flags.hpp"
 
 namespace rilo::cli {
 
@@ -27,6 +29,7 @@ Examples:
   rilo run kitti/sequences/00 --out results/00 --elevation-correction 0.205
   rilo run drive.bag --topic /velodyne_points --out results/drive
   rilo run 2011_09_26_drive_0001_sync --point-times azimuth --out results/0001
+  rilo run kitti/sequences/00 --view
   rilo run sweeps/ --bin-fields x,y,z,intensity,ring --set preprocess.max_range_m=60 --map map.pcd
 
 Leaves in --out: poses_lidar.txt, poses_camera.txt (with a calibration), trajectory.tum, .csv (EuRoC) and .mcap
@@ -59,6 +62,19 @@ int finish(const RunFlags& flags, const RunRecord& run, PartialPoses& partial) {
   return run.signal == 0 ? kSuccess : kSignalBase + run.signal;
 }
 
+std::unique_ptr<LiveView> open_view(const RunFlags& flags, const ScanSource& source, const OdometryConfig& config) {
+  if (flags.view.empty()) return nullptr;
+  ViewOptions options = flags.view_options;
+  if (flags.view != "auto") {
+    options.port = parse_port(flags.view);
+    if (!options.port) throw CommandError(kUsage, "--view=" + flags.view + ": expected a port, 0 … 65535");
+  }
+  ViewInfo info = view_info(flags.data, config);
+  info.sweeps = sweeps_to_do(flags, source);
+  return std::make_unique<LiveView>(info, options,
+                                    flags.no_truth ? std::nullopt : std::optional(TruthTrack(flags.data)));
+}
+
 int run_command(const RunFlags& flags, const std::string& command_line) {
   RunRecord run;
   run.command_line = command_line;
@@ -67,8 +83,10 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   auto source = open_scan_source(flags.data, flags.source.options);
   prepare_outputs(flags);
   const InterruptGuard guard;
+  const auto view = open_view(flags, *source, run.config);
   PartialPoses partial(flags.out);
-  run_sweeps(flags, std::move(source), partial, run);
+  run_sweeps(flags, std::move(source), partial, run, view.get());
+  if (view) view->viewer().finish();
   if (run.results.empty() && run.signal == 0) {
     partial.remove();
     throw CommandError(run.error_code, run.error);
@@ -80,7 +98,12 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
       std::cerr << "rilo: warning: " << run.source.warnings[i] << '\n';
     }
   }
-  return finish(flags, run, partial);
+  const int exit_code = finish(flags, run, partial);
+  if (view && run.signal == 0) {
+    if (!flags.quiet) std::cerr << "rilo: done; the viewer stays at " << view->viewer().url() << " until Ctrl-C\n";
+    wait_for_signal();
+  }
+  return exit_code;
 }
 
 void add_flags(CLI::App& command, RunFlags& flags) {
@@ -112,6 +135,10 @@ void add_flags(CLI::App& command, RunFlags& flags) {
   command.add_flag("--json", flags.json, "print metrics.json instead of the summary");
   command.add_flag("--no-report", flags.no_report, "do not write report.html");
   command.add_flag("--no-truth", flags.no_truth, "do not look for ground truth");
+  command.add_flag("--view{auto}", flags.view,
+                   "serve a web page that shows the run; --view=PORT chooses the port (0: any free one). Stays until "
+                   "Ctrl-C");
+  add_address_flag(command, "--view-address", flags.view_options);
   add_source_flags(command, flags.source);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rilo/view/viewer.hpp"
 #include "source_flags.hpp"
 
 namespace rilo::cli {
@@ -26,6 +27,8 @@ struct RunFlags {
   bool no_report = false;
   bool no_truth = false;
   bool one_pass = false;
+  std::string view;  ///< --view: its port or "auto"; empty: no viewer
+  ViewOptions view_options;
   SourceFlags source;
 };
 

@@ -46,20 +46,17 @@ double peak_rss_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-std::optional<std::size_t> sweeps_to_do(const RunFlags& flags, const ScanSource& source) {
-  std::optional<std::size_t> total = source.size();
-  if (total) *total -= std::min(*total, flags.start);
-  if (flags.count > 0) total = std::min(total.value_or(flags.count), flags.count);
-  return total;
 }
 
 class SweepLoop {
  public:
-  SweepLoop(const RunFlags& flags, std::unique_ptr<ScanSource> source, PartialPoses& partial, RunRecord& run)
+  SweepLoop(const RunFlags& flags, std::unique_ptr<ScanSource> source, PartialPoses& partial, RunRecord& run,
+            LiveView* view)
       : flags_(flags),
         source_(std::move(source)),
         partial_(partial),
         run_(run),
+        view_(view),
         odometry_(new_odometry()),
         map_wanted_(!flags.map.empty() || (!flags.out.empty() && !flags.no_report)),
         map_voxel_m_(flags.map.empty() ? kPictureVoxelM : flags.map_voxel_m),
@@ -106,7 +103,7 @@ class SweepLoop {
 
   // False at the end of the data.
   bool step() {
-    const std::optional<Sweep> sweep = source_->next();
+    std::optional<Sweep> sweep = source_->next();
     show_warnings();
     if (!sweep) return false;
     check_point_times(flags_.source, *sweep, source_->current_name());
@@ -120,6 +117,7 @@ class SweepLoop {
     }
     const bool usual = result.status == OdometryStatus::kOk;
     progress_.update(run_.results.size(), usual ? "" : std::string(to_string(result.status)));
+    if (view_ != nullptr) view_->show(source_->current_index(), result, std::move(*sweep));
     return true;
   }
 
@@ -147,6 +145,7 @@ class SweepLoop {
     source_ = open_scan_source(flags_.data, flags_.source.options);
     source_->skip(flags_.start);
     partial_.start_over();
+    if (view_ != nullptr) view_->start_over();
     odometry_ = new_odometry();
     map_ = ThinnedMap(map_voxel_m_);
   }
@@ -171,6 +170,7 @@ class SweepLoop {
   std::unique_ptr<ScanSource> source_;
   PartialPoses& partial_;
   RunRecord& run_;
+  LiveView* view_;
   Odometry odometry_;
   bool map_wanted_;  // for the file or the report
   double map_voxel_m_;
@@ -181,8 +181,16 @@ class SweepLoop {
 
 }  // namespace
 
-void run_sweeps(const RunFlags& flags, std::unique_ptr<ScanSource> source, PartialPoses& partial, RunRecord& run) {
-  SweepLoop(flags, std::move(source), partial, run).run();
+std::optional<std::size_t> sweeps_to_do(const RunFlags& flags, const ScanSource& source) {
+  std::optional<std::size_t> total = source.size();
+  if (total) *total -= std::min(*total, flags.start);
+  if (flags.count > 0) total = std::min(total.value_or(flags.count), flags.count);
+  return total;
+}
+
+void run_sweeps(const RunFlags& flags, std::unique_ptr<ScanSource> source, PartialPoses& partial, RunRecord& run,
+                LiveView* view) {
+  SweepLoop(flags, std::move(source), partial, run, view).run();
 }
 
 }  // namespace rilo::cli

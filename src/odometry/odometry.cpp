@@ -195,6 +195,8 @@ void Odometry::Impl::register_prepared(const PreparedSweep& prepared, SweepResul
     icp = with_first_sweep_compensated(prepared, std::move(icp), dt_s, sigma_th_m);
   }
   record(icp, result.stats);
+  const Eigen::Matrix3d R = icp.state.T_odom_lidar.linear();
+  result.translation_evidence = R.transpose() * icp.degeneracy.translation_evidence() * R;
   result.stats.times.registration_ms = clock_.lap_ms();
 
   // Health, adaptive threshold (III-C) and local map.

@@ -7,6 +7,11 @@
 
 namespace rilo {
 
+Eigen::Matrix3d PoseDegeneracy::translation_evidence() const {
+  const auto rows = directions.bottomRows<3>();
+  return rows * relative_eigenvalues.asDiagonal() * rows.transpose();
+}
+
 PoseDegeneracy analyse_degeneracy(const Matrix6d& H, const Matrix6d& noise) {
   PoseDegeneracy result;
   const double rotation = H.topLeftCorner<3, 3>().trace();

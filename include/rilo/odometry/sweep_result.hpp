@@ -101,6 +101,9 @@ struct SweepResult {
   SE3 T_odom_lidar = SE3::Identity();
   Vector6d twist = Vector6d::Zero();       ///< body velocity during the sweep [rad/s; m/s]
   Matrix6d covariance = Matrix6d::Zero();  ///< of the pose, right perturbation, [rad; m]
+  /// What the sweep itself shows of the three translations, sensor axes: their block of the information less the noise
+  /// of the normals, relative to the largest of the six eigenvalues. Zero for the first sweep and an empty one.
+  Eigen::Matrix3d translation_evidence = Eigen::Matrix3d::Zero();
   OdometryStatus status = OdometryStatus::kInitialising;
   SweepStats stats;
 };

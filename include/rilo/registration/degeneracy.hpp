@@ -13,6 +13,9 @@ struct PoseDegeneracy {
   Matrix6d directions =
       Matrix6d::Identity();  ///< column i: unit direction of eigenvalue i, [rotation · lever; translation]
   double lever_m = 1.0;
+
+  /// The block of the translations of directions · relative_eigenvalues · directionsᵀ.
+  Eigen::Matrix3d translation_evidence() const;
 };
 
 /// `H`: information (or Hessian) of [rotation; translation] about the sensor; the lever is chosen such that mean

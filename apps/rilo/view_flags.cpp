@@ -1,0 +1,47 @@
+#include "view_flags.hpp"
+
+#include <charconv>
+#include <chrono>
+#include <iostream>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "checks.hpp"
+#include "command.hpp"
+#include "interrupt.hpp"
+#include "rilo/io/io_error.hpp"
+
+namespace rilo::cli {
+
+std::unique_ptr<Viewer> open_viewer(const ViewInfo& info, const ViewOptions& options) {
+  try {
+    auto viewer = std::make_unique<Viewer>(info, options);
+    std::cerr << "rilo: viewer at " << viewer->url() << std::endl;
+    return viewer;
+  } catch (const IoError& error) {
+    throw CommandError(kUsage, error.what());
+  }
+}
+
+void wait_for_signal() {
+  while (InterruptGuard::signal() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
+void add_address_flag(CLI::App& command, const std::string& name, ViewOptions& options) {
+  command
+      .add_option(name, options.address,
+                  "numeric address to serve the viewer on. Anything but a loopback address can be reached from other "
+                  "machines, unencrypted: the address printed then holds a token")
+      ->check(path_given())
+      ->capture_default_str();
+}
+
+std::optional<std::uint16_t> parse_port(const std::string& text) {
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return port;
+}
+
+}  // namespace rilo::cli

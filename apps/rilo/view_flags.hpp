@@ -1,0 +1,27 @@
+// Command-line options of the viewer, shared by run and view, and opening it.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cli11_app.hpp"
+#include "rilo/view/viewer.hpp"
+
+namespace rilo::cli {
+
+/// Opens the viewer and says on standard error where to look, even in a quiet run: nobody could find it otherwise.
+/// @throws CommandError(kUsage) when there is none in this build, or it cannot be bound.
+std::unique_ptr<Viewer> open_viewer(const ViewInfo& info, const ViewOptions& options);
+
+/// Waits until Ctrl-C or SIGTERM.
+void wait_for_signal();
+
+/// What the rest of the options of a viewer are called, `--view-address` or `--address`.
+void add_address_flag(CLI::App& command, const std::string& name, ViewOptions& options);
+
+/// A port on the command line; whatever is no port is refused.
+std::optional<std::uint16_t> parse_port(const std::string& text);
+
+}  // namespace rilo::cli

@@ -1,0 +1,162 @@
+#include "rilo/view/viewer.hpp"
+
+#include <atomic>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <condition_variable>
+#include <mutex>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "page_files.hpp"
+#include "page_server.hpp"
+#include "rilo/io/io_error.hpp"
+
+namespace rilo {
+
+namespace asio = boost::asio;
+
+namespace {
+
+constexpr std::size_t kQueue = 4;  // sweeps with points on their way to the viewer's thread
+constexpr int kNice = 10;          // the odometry goes first
+
+}  // namespace
+
+class Viewer::Impl {
+ public:
+  Impl(const ViewInfo& info, const ViewOptions& options)
+      : hub_(info, options, view::is_loopback(options.address)),
+        work_(asio::make_work_guard(io_)),
+        server_(io_, options.address, options.port, hub_) {
+    url_ = shown_url();
+    server_.start();
+    thread_ = std::thread([this, polite = options.share < 1.0] {
+      // Of this thread alone, on Linux.
+      if (polite) setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
+      io_.run();
+    });
+  }
+
+  ~Impl() {
+    asio::post(io_, [this] {
+      server_.stop();
+      io_.stop();
+    });
+    thread_.join();
+  }
+
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  const std::string& url() const { return url_; }
+
+  void push(ViewSweep sweep, bool wait) {
+    const bool has_points = !sweep.sweep.points.empty();
+    bool drop = false;
+    if (has_points) {
+      std::unique_lock lock(mutex_);
+      if (wait) room_.wait(lock, [this] { return waiting_ < kQueue; });
+      drop = waiting_ >= kQueue;
+      if (!drop) ++waiting_;
+    }
+    if (drop) sweep.sweep = Sweep{};
+    // Shared, since handlers of this library's older versions are copied.
+    auto shared = std::make_shared<const ViewSweep>(std::move(sweep));
+    asio::post(io_, [this, shared = std::move(shared), drop, counted = has_points && !drop] {
+      hub_.history.add(*shared, hub_.clients > 0);
+      if (drop) hub_.history.count_dropped();
+      hub_.dropped = hub_.history.progress().dropped;
+      if (counted) {
+        const std::lock_guard lock(mutex_);
+        --waiting_;
+      }
+      room_.notify_one();
+      hub_.wake();
+    });
+  }
+
+  void add_map(std::vector<Eigen::Vector3f> points, std::vector<std::uint32_t> sweeps) {
+    asio::post(io_, [this, points = std::move(points), sweeps = std::move(sweeps)] {
+      hub_.history.add_map(points, sweeps);
+      hub_.wake();
+    });
+  }
+
+  void start_over() {
+    asio::post(io_, [this] { hub_.start_over(); });
+  }
+
+  void finish() {
+    asio::post(io_, [this] {
+      hub_.history.finish();
+      hub_.wake();
+    });
+  }
+
+  std::size_t clients() const { return hub_.clients; }
+  std::size_t dropped() const { return hub_.dropped; }
+
+ private:
+  std::string shown_url() const {
+    const auto endpoint = server_.endpoint();
+    const auto address = endpoint.address();
+    std::string host = address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
+    if (address.is_unspecified()) {
+      std::string name(256, '\0');
+      if (gethostname(name.data(), name.size() - 1) == 0) host = name.c_str();
+    }
+    const std::string& token = hub_.access.token();
+    return fmt::format("http://{}:{}/{}", host, endpoint.port(), token.empty() ? "" : "?token=" + token);
+  }
+
+  view::Hub hub_;
+  asio::io_context io_{1};
+  asio::executor_work_guard<asio::io_context::executor_type> work_;
+  view::PageServer server_;
+  std::string url_;
+  std::mutex mutex_;
+  std::condition_variable room_;
+  std::size_t waiting_ = 0;
+  std::thread thread_;
+};
+
+Viewer::Viewer(const ViewInfo& info, const ViewOptions& options) {
+  if (!has_page()) {
+    throw IoError({"the viewer", "", "a build without its page",
+                   "a build made with npm and the npm registry within reach",
+                   "Install nodejs and npm, configure and build again"});
+  }
+  impl_ = std::make_unique<Impl>(info, options);
+}
+
+Viewer::~Viewer() = default;
+
+bool Viewer::has_page() { return !view::page_files().empty(); }
+
+std::string Viewer::url() const { return impl_->url(); }
+
+void Viewer::push(ViewSweep sweep) { impl_->push(std::move(sweep), false); }
+
+void Viewer::push_all(ViewSweep sweep) { impl_->push(std::move(sweep), true); }
+
+void Viewer::add_map(std::span<const Eigen::Vector3f> points, std::span<const std::uint32_t> sweeps) {
+  impl_->add_map({points.begin(), points.end()}, {sweeps.begin(), sweeps.end()});
+}
+
+void Viewer::start_over() { impl_->start_over(); }
+
+void Viewer::finish() { impl_->finish(); }
+
+std::size_t Viewer::clients() const { return impl_->clients(); }
+
+std::size_t Viewer::dropped() const { return impl_->dropped(); }
+
+}  // namespace rilo

@@ -1,0 +1,24 @@
+// This build has no viewer.
+#include "rilo/io/io_error.hpp"
+#include "rilo/view/viewer.hpp"
+
+namespace rilo {
+
+class Viewer::Impl {};
+
+Viewer::Viewer(const ViewInfo& /*info*/, const ViewOptions& /*options*/) {
+  throw IoError({"the viewer", "", "a build without it", "a build with Boost.Beast",
+                 "Install libboost-dev, nodejs and npm, configure and build again"});
+}
+Viewer::~Viewer() = default;
+bool Viewer::has_page() { return false; }
+std::string Viewer::url() const { return {}; }
+void Viewer::push(ViewSweep /*sweep*/) {}
+void Viewer::push_all(ViewSweep /*sweep*/) {}
+void Viewer::add_map(std::span<const Eigen::Vector3f> /*points*/, std::span<const std::uint32_t> /*sweeps*/) {}
+void Viewer::start_over() {}
+void Viewer::finish() {}
+std::size_t Viewer::clients() const { return 0; }
+std::size_t Viewer::dropped() const { return 0; }
+
+}  // namespace rilo

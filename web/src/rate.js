@@ -1,0 +1,40 @@
+// Frames per second, and how many points they allow.
+const GOAL_MS = 1000 / 30;
+
+const thousands = (count) => (count >= 1e6 ? `${(count / 1e6).toFixed(2)} M` : `${Math.round(count / 1000)} k`);
+
+export class Rate {
+  constructor(text, choice) {
+    this.text = text;
+    this.choice = choice;
+    this.fitting = 1; // share of the map's points that can be drawn in time
+    this.usual = GOAL_MS;
+    this.drawn = 0;
+  }
+
+  get share() {
+    return this.choice.value === 'all' ? 1 : this.fitting;
+  }
+
+  get fps() {
+    return 1000 / this.usual;
+  }
+
+  /// Nothing was drawn: what follows says nothing of the time that drawing takes.
+  rest() {
+    this.last = null;
+  }
+
+  drew(now, points, all) {
+    this.drawn = points;
+    if (this.last) {
+      this.usual += 0.1 * (Math.min(now - this.last, 1000) - this.usual);
+      if (this.usual > GOAL_MS * 1.05) this.fitting = Math.max(0.02, this.fitting * 0.97);
+      else if (this.usual < GOAL_MS * 0.8) this.fitting = Math.min(1, this.fitting * 1.02);
+    }
+    this.last = now;
+    if (now - (this.told ?? -1e9) < 500) return;
+    this.told = now;
+    this.text.textContent = `${this.fps.toFixed(0)} fps · ${thousands(points)} points · map ${thousands(all)}`;
+  }
+}

@@ -16,6 +16,7 @@ constexpr const char* kFooter = R"(Examples:
   rilo eval drive results/poses_lidar.txt                   errors against ground truth
   rilo quality drive results/poses_lidar.txt                how crisp the map is; needs no ground truth
   rilo bench experiments/ablation.yaml --data drive         several configurations on several drives
+  rilo report results other-results                         one page that compares runs
   rilo config --dump > my.yaml                              every key with its unit and meaning
 
 Exit codes: 0 success, 1 unexpected error, 2 wrong usage or configuration, 3 data missing or malformed,
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
   cli::add_eval_command(app, exit_code);
   cli::add_bench_command(app, cli::command_line(argc, argv), exit_code);
   cli::add_quality_command(app, exit_code);
+  cli::add_report_command(app, exit_code);
   cli::add_simulate_command(app, exit_code);
   cli::add_config_command(app, exit_code);
   cli::add_info_command(app, exit_code);

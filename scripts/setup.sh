@@ -7,6 +7,7 @@
 #   scripts/setup.sh --docs     also Doxygen
 #   scripts/setup.sh --bench    also Valgrind, which counts instructions
 #   scripts/setup.sh --fuzz     also Clang with libFuzzer
+#   scripts/setup.sh --package  also what building Debian packages needs
 #   scripts/setup.sh --print    print the package names instead of installing them
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -21,12 +22,14 @@ lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
 bench=(valgrind)
 fuzz=(clang libclang-rt-14-dev)
+package=(dpkg-dev file)
 
 minimal=false
 with_lint=false
 with_docs=false
 with_bench=false
 with_fuzz=false
+with_package=false
 print_only=false
 for argument in "$@"; do
   case "$argument" in
@@ -35,9 +38,10 @@ for argument in "$@"; do
     --docs) with_docs=true ;;
     --bench) with_bench=true ;;
     --fuzz) with_fuzz=true ;;
+    --package) with_package=true ;;
     --print) print_only=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/setup.sh | grep -v '^shellcheck'; exit 0 ;;
-    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --fuzz --print" ;;
+    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --fuzz --package --print" ;;
   esac
 done
 
@@ -47,6 +51,7 @@ $minimal || wanted+=("${tests[@]}")
 ! $with_docs || wanted+=("${docs[@]}")
 ! $with_bench || wanted+=("${bench[@]}")
 ! $with_fuzz || wanted+=("${fuzz[@]}")
+! $with_package || wanted+=("${package[@]}")
 if $print_only; then
   printf '%s\n' "${wanted[@]}"
   exit 0

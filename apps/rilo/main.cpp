@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "command.hpp"
+#include "describe_command.hpp"
 #include "failure.hpp"
 #include "text.hpp"
 #include "version.hpp"
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
   cli::add_simulate_command(app, exit_code);
   cli::add_config_command(app, exit_code);
   cli::add_info_command(app, exit_code);
+  cli::add_describe_commands(app, exit_code);
   try {
     app.parse(argc, argv);
     std::cout.flush();

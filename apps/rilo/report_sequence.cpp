@@ -24,7 +24,7 @@ struct Placed {
   std::optional<SE3> T_world_odom;  ///< nothing without truth
 };
 
-std::string joined(const std::vector<std::string>& sentences, const std::string& first) {
+std::string with_sentences(const std::vector<std::string>& sentences, const std::string& first) {
   std::string text = first;
   for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence + ".";
   return text;
@@ -73,7 +73,7 @@ Placed placed_run(const ReportSequence& sequence, const ReportEntry& entry) {
   Placed placed{report_of(saved.record, saved.metrics), std::nullopt};
   RunReport& report = placed.report;
   report.title = entry.input.name;
-  report.notice = joined(saved.notices, report.notice);
+  report.notice = with_sentences(saved.notices, report.notice);
   report.recorded = recorded_figures(saved.metrics);
   report.facts.insert(report.facts.begin(), {"Results", valid_utf8(saved.folder.string())});
   if (saved.killed) {

@@ -37,7 +37,7 @@ ExperimentCell cell_of(const Json& json) {
 }
 
 /// What a report lets one choose from; APE first, as in the paper's figures.
-std::vector<ExperimentFigure> figures() {
+std::vector<ExperimentFigure> report_figures() {
   return {{"ape_rmse_m", "APE rmse", "m", 4},
           {"t_rel_pct", "t_rel", "%", 4},
           {"r_rel_deg_per_100m", "r_rel", "°/100 m", 4},
@@ -50,7 +50,7 @@ std::vector<ExperimentFigure> figures() {
           {"peak_rss_mb", "Peak memory", "MB", 0}};
 }
 
-std::string notice_of(const Json& json, std::size_t failed) {
+std::string bench_notice(const Json& json, std::size_t failed) {
   const std::size_t planned = count_at(json, "cells_planned");
   const std::size_t run = count_at(json, "cells_run");
   std::string text;
@@ -77,8 +77,8 @@ ExperimentReport read_saved_bench(const fs::path& path) {
     throw IoError({file, "", "a benchmark without a finished cell", "results of at least one", "Run rilo bench again"});
   }
   ExperimentReport report;
-  report.title = "Experiment: " + valid_utf8(last_name(file.parent_path().empty() ? "." : file.parent_path()));
-  report.figures = figures();
+  report.title = valid_utf8(last_name(file.parent_path().empty() ? "." : file.parent_path()));
+  report.figures = report_figures();
   std::vector<ConfigurationSettings> settings;
   std::size_t failed = 0;
   for (const Json& entry : json["cells"]) {
@@ -87,7 +87,7 @@ ExperimentReport read_saved_bench(const fs::path& path) {
     if (!report.cells.back().peer) add_settings(report.cells.back().configuration, entry, settings);
   }
   report.sensitivities = find_sensitivities(settings);
-  report.notice = notice_of(json, failed);
+  report.notice = bench_notice(json, failed);
   report.facts = {{"Command", text_at(json, "command")},
                   {"Rilo", text_at(json, "rilo_version")},
                   {"Results", valid_utf8(file.string())}};

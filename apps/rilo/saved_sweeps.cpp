@@ -16,9 +16,9 @@ namespace rilo::cli {
 
 namespace {
 
-constexpr const char* kExpected = "sweeps.csv of rilo run";
+constexpr const char* kExpectedSweeps = "sweeps.csv of rilo run";
 
-std::vector<std::string> cells_of(std::string line) {
+std::vector<std::string> split_cells(std::string line) {
   if (line.ends_with('\r')) line.pop_back();
   std::vector<std::string> cells;
   std::size_t from = 0;
@@ -65,7 +65,7 @@ class Line {
   const std::string& cell(std::string_view column) const {
     const auto found = std::find(header_.begin(), header_.end(), column);
     if (found == header_.end()) {
-      throw IoError({file_, "line 1", fmt::format("no column {}", column), kExpected, "Run rilo run again"});
+      throw IoError({file_, "line 1", fmt::format("no column {}", column), kExpectedSweeps, "Run rilo run again"});
     }
     return cells_[static_cast<std::size_t>(found - header_.begin())];
   }
@@ -106,13 +106,14 @@ SavedSweeps read_sweeps_csv(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string text;
   if (!std::filesystem::is_regular_file(file, ignored) || !stream || !std::getline(stream, text)) {
-    throw IoError({file, "", "no file that can be read", kExpected, "Give the folder that --out of rilo run named"});
+    throw IoError(
+        {file, "", "no file that can be read", kExpectedSweeps, "Give the folder that --out of rilo run named"});
   }
-  const std::vector<std::string> header = cells_of(text);
+  const std::vector<std::string> header = split_cells(text);
   SavedSweeps sweeps;
   for (std::size_t number = 2; std::getline(stream, text); ++number) {
     if (text.empty()) continue;
-    const Line line(file, number, header, cells_of(text));
+    const Line line(file, number, header, split_cells(text));
     sweeps.indices.push_back(line.number<std::size_t>("sweep"));
     sweeps.results.push_back(result_of(line));
   }

@@ -18,15 +18,17 @@ struct Column {
 Column column_of(const std::vector<FigureRow>& rows, std::size_t i, int digits) {
   Column column;
   std::optional<double> least;
+  std::optional<double> most;
   std::size_t count = 0;
   for (const FigureRow& row : rows) {
     if (row.values[i]) {
       ++count;
       least = std::min(least.value_or(*row.values[i]), *row.values[i]);
+      most = std::max(most.value_or(*row.values[i]), *row.values[i]);
     }
   }
   column.any = count > 0;
-  column.best = count > 1 ? number(least, digits) : "";
+  column.best = count > 1 && number(least, digits) != number(most, digits) ? number(least, digits) : "";
   return column;
 }
 

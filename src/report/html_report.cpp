@@ -41,7 +41,10 @@ std::string page_title(const ReportPage& page) {
   if (page.runs.size() > 1) {
     return fmt::format("{} runs compared", page.runs.size());
   }
-  return page.runs.empty() ? escaped(page.experiments.front().title) : title_of(page.runs.front());
+  if (page.runs.empty()) {
+    return page.experiments.size() > 1 ? "Experiments" : "Experiment";
+  }
+  return title_of(page.runs.front());
 }
 
 std::string head(const std::string& title) {

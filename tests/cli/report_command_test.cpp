@@ -60,8 +60,12 @@ TEST(ReportCommand, ComparesRunsAndPosesOfOthers) {
   // A peer of the same poses is as good as the run itself.
   const nlohmann::json data = comparison_of(html);
   for (const auto& figure : data["figures"]) {
-    if (figure["unit"] == "m") EXPECT_NEAR(figure["values"][0].get<double>(), figure["values"][2].get<double>(), 1e-5);
-    if (figure["unit"] == "ms") EXPECT_TRUE(figure["values"][2].is_null());
+    const auto& values = figure["values"];
+    if (figure["unit"] == "m") {
+      EXPECT_NEAR(values[0].get<double>(), values[2].get<double>(), 1e-5);
+    } else if (figure["unit"] == "ms") {
+      EXPECT_TRUE(values[2].is_null());
+    }
   }
 }
 
@@ -140,7 +144,7 @@ TEST(ReportCommand, PosesAlone) {
   const std::string html = content(folder / "page.html");
   EXPECT_THAT(html, HasSubstr("</i>exact</th>"));
   EXPECT_THAT(html, HasSubstr("<td>2.0000</td>"));  // t_rel
-  EXPECT_THAT(html, HasSubstr("<td>4.00</td>"));   // 200 m end 4 m too far
+  EXPECT_THAT(html, HasSubstr("<td>4.00</td>"));    // 200 m end 4 m too far
 }
 
 TEST(ReportCommand, ExperimentsWithSensitivity) {
@@ -172,7 +176,7 @@ TEST(ReportCommand, RefusesWhatIsNoResult) {
   const TempDir folder;
   const std::string page = folder / "page.html";
   rilo_fails(3, {"report", folder / "none", "-o", page}, {"none", "rilo run", "Check the path"});
-  rilo_fails(3, {"report", shared_drive(), "-o", page}, {"a folder with", "velodyne", "give them to rilo run"});
+  rilo_fails(3, {"report", shared_drive(), "-o", page}, {"a folder with", "meta.json", "give them to rilo run"});
   rilo_fails(2, {"report", "name=", "-o", page}, {"name"});
   rilo_fails(3, {"report", shared_run(), "--gt", folder / "none", "-o", page}, {"--gt"});
   rilo_fails(4, {"report", shared_run(), "-o", folder / "no" / "page.html"}, {"page.html"});

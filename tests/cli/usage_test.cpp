@@ -55,6 +55,9 @@ TEST(Usage, WrongCommandLinesEndWith2AndOneLine) {
       {"config"},
       {"config", "--dump", "--check", "x"},
       {"info"},
+      {"completion"},
+      {"completion", "tcsh"},
+      {"man", "page"},
   };
   for (const auto& arguments : wrong) {
     const Outcome outcome = rilo_fails(2, arguments, {"--"});

@@ -125,15 +125,18 @@ TEST(Comparison, NoticesAreShown) {
 }
 
 TEST(FigureTable, MarksWhatIsPrintedBest) {
-  const std::vector<ExperimentFigure> columns = {{"a", "A", "m", 2}, {"b", "B", "", 2}, {"c", "C", "", 0}};
+  const std::vector<ExperimentFigure> columns = {
+      {"a", "A", "m", 2}, {"b", "B", "", 2}, {"c", "C", "", 0}, {"d", "D", "", 1}};
   const std::string html = figure_table("run", columns,
-                                        {{"x", {1.001, std::nullopt, 5}, ""},
-                                         {"y", {1.004, std::nullopt, std::nullopt}, ""},
-                                         {"z", {1.2, std::nullopt, std::nullopt}, ""}});
-  // 1.001 and 1.004 print alike; a column of one value has no best; B has no value at all.
-  EXPECT_THAT(html, HasSubstr("<th scope=\"row\">x</th><td class=\"best\"><strong>1.00</strong></td><td>5</td>"));
-  EXPECT_THAT(html, HasSubstr("<th scope=\"row\">y</th><td class=\"best\"><strong>1.00</strong></td><td>–</td>"));
-  EXPECT_THAT(html, HasSubstr("<th scope=\"row\">z</th><td>1.20</td><td>–</td>"));
+                                        {{"x", {1.001, std::nullopt, 5, 2}, ""},
+                                         {"y", {1.004, std::nullopt, std::nullopt, 2.01}, ""},
+                                         {"z", {1.2, std::nullopt, std::nullopt, 2}, ""}});
+  // 1.001 and 1.004 print alike; a column of one value, or of equal ones, has no best; B has no value at all.
+  EXPECT_THAT(html,
+              HasSubstr("<th scope=\"row\">x</th><td class=\"best\"><strong>1.00</strong></td><td>5</td><td>2.0</td>"));
+  EXPECT_THAT(html,
+              HasSubstr("<th scope=\"row\">y</th><td class=\"best\"><strong>1.00</strong></td><td>–</td><td>2.0</td>"));
+  EXPECT_THAT(html, HasSubstr("<th scope=\"row\">z</th><td>1.20</td><td>–</td><td>2.0</td>"));
   EXPECT_THAT(html, Not(HasSubstr(">B ")));
 }
 

@@ -1,6 +1,7 @@
 #include "report_sequence.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -92,52 +93,61 @@ Placed placed_run(const ReportSequence& sequence, const ReportEntry& entry) {
   return placed;
 }
 
-/// Poses of another program. With a run beside it, on the sweeps of that run.
+/// Poses of another program and the true ones at the same instants; `truth` stays empty when there is none.
+struct PairedPeer {
+  std::vector<SE3> estimate;
+  std::vector<SE3> truth;
+  std::pair<std::string, std::string> protocol;
+};
+
+/// On the sweeps of the run beside them.
+PairedPeer on_sweeps_of(const RunRecord& run, const ReportSequence& sequence, const GivenPoses& given) {
+  PairedPeer peer;
+  const PosesOfSweeps poses = poses_of_sweeps(given, run);
+  if (run.truth) {
+    std::optional<GivenPoses> file;
+    if (!sequence.truth.empty() && !fs::is_directory(sequence.truth)) {
+      file = GivenPoses{sequence.truth, given.camera_frame, given.max_gap_s};
+    }
+    TruthMatch match = match_truth(*truth_of_sweeps(run, file), poses);
+    peer.truth = std::move(match.truth);
+    peer.estimate = std::move(match.estimate);
+  } else {
+    for (const auto& pose : poses) {
+      if (pose) peer.estimate.push_back(*pose);
+    }
+  }
+  peer.protocol = {"Compared on", fmt::format("{} of the {} of the run beside it",
+                                              counted(peer.estimate.size(), "sweep"), run.results.size())};
+  return peer;
+}
+
+/// Without a run: against the given truth, or as they are.
+PairedPeer on_their_own(const ReportSequence& sequence, const GivenPoses& given) {
+  const PoseFile poses = read_poses(given.file);
+  if (sequence.truth.empty()) return {poses_of(poses.trajectory), {}, {"Truth", "none was given"}};
+  PairingOptions pairing;
+  pairing.max_gap_s = given.max_gap_s;
+  PairedPoses paired = pair_poses(read_truth(sequence.truth, TruthInstant::kMid), poses, pairing);
+  return {std::move(paired.poses.estimate), std::move(paired.poses.truth), {"Protocol", paired.protocol}};
+}
+
 Placed placed_poses(const ReportSequence& sequence, const ReportInput& input, const RunRecord* run,
                     const PoseFlags& flags) {
+  const GivenPoses given{input.path, flags.camera_frame, flags.max_gap_s};
+  const PairedPeer peer = run != nullptr ? on_sweeps_of(*run, sequence, given) : on_their_own(sequence, given);
+  if (peer.estimate.empty()) throw CommandError(kBadData, input.path.string() + ": no pose of the sweeps compared");
   Placed placed;
   RunReport& report = placed.report;
   report.title = report.name = input.name;
   report.sequence = sequence.name;
   report.dataset = valid_utf8(input.path.string());
-  report.facts = {{"Poses", valid_utf8(input.path.string())}};
-  std::vector<SE3> truth;
-  const GivenPoses given{input.path, flags.camera_frame, flags.max_gap_s};
-  if (run != nullptr) {
-    const PosesOfSweeps poses = poses_of_sweeps(given, *run);
-    for (const auto& pose : poses) {
-      if (pose) report.estimate.push_back(*pose);
-    }
-    std::optional<GivenPoses> file;
-    if (!sequence.truth.empty() && !fs::is_directory(sequence.truth)) {
-      file = GivenPoses{sequence.truth, flags.camera_frame, flags.max_gap_s};
-    }
-    if (run->truth) {
-      const TruthMatch match = match_truth(*truth_of_sweeps(*run, file), poses);
-      truth = match.truth;
-      report.estimate = match.estimate;
-    }
-    report.facts.emplace_back("Compared on",
-                              fmt::format("{} of the {} of the run beside it", counted(report.estimate.size(), "sweep"),
-                                          run->results.size()));
-  } else if (!sequence.truth.empty()) {
-    PairingOptions pairing;
-    pairing.max_gap_s = flags.max_gap_s;
-    const PairedPoses paired =
-        pair_poses(read_truth(sequence.truth, TruthInstant::kMid), read_poses(input.path), pairing);
-    truth = paired.poses.truth;
-    report.estimate = paired.poses.estimate;
-    report.facts.emplace_back("Protocol", paired.protocol);
-  } else {
-    report.estimate = poses_of(read_poses(input.path).trajectory);
-  }
-  if (report.estimate.empty()) throw CommandError(kBadData, input.path.string() + ": no pose of the sweeps compared");
-  const SE3 T_first_odom = report.estimate.front().inverse();
-  report.estimate = moved(report.estimate, T_first_odom);
-  if (!truth.empty()) {
-    report.evaluation = evaluate(truth, report.estimate);
-    report.truth = moved(truth, truth.front().inverse());
-    placed.T_world_odom = truth.front();
+  report.facts = {{"Poses", report.dataset}, peer.protocol};
+  report.estimate = moved(peer.estimate, peer.estimate.front().inverse());
+  if (!peer.truth.empty()) {
+    report.evaluation = evaluate(peer.truth, report.estimate);
+    report.truth = moved(peer.truth, peer.truth.front().inverse());
+    placed.T_world_odom = peer.truth.front();
   }
   return placed;
 }

@@ -40,7 +40,8 @@ execute_process(COMMAND ${PROJECT_SOURCE_DIR}/scripts/setup.sh --minimal --print
   OUTPUT_VARIABLE packages ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
 string(REPLACE "\n" ";" packages "${packages}")
 list(FILTER packages INCLUDE REGEX "-dev$")
-if(TARGET RosbagStorage::rosbag_storage)
+find_package(RosbagStorage QUIET)  # that of src/io is not seen here
+if(RosbagStorage_FOUND)
   list(APPEND packages librosbag-storage-dev)
 endif()
 list(JOIN packages ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)

@@ -8,6 +8,7 @@
 #   scripts/setup.sh --bench    also Valgrind, which counts instructions
 #   scripts/setup.sh --browser  also Chromium, which the viewer's page is tested in
 #   scripts/setup.sh --fuzz     also Clang with libFuzzer
+#   scripts/setup.sh --package  also what building Debian packages needs
 #   scripts/setup.sh --print    print the package names instead of installing them
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -31,6 +32,7 @@ docs=(doxygen)
 bench=(valgrind)
 browser=(chromium)
 fuzz=(clang libclang-rt-14-dev)
+package=(dpkg-dev file)
 
 minimal=false
 with_lint=false
@@ -38,6 +40,7 @@ with_docs=false
 with_bench=false
 with_fuzz=false
 with_browser=false
+with_package=false
 print_only=false
 for argument in "$@"; do
   case "$argument" in
@@ -47,9 +50,10 @@ for argument in "$@"; do
     --bench) with_bench=true ;;
     --fuzz) with_fuzz=true ;;
     --browser) with_browser=true ;;
+    --package) with_package=true ;;
     --print) print_only=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/setup.sh | grep -v '^shellcheck'; exit 0 ;;
-    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --browser --fuzz --print" ;;
+    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --browser --fuzz --package --print" ;;
   esac
 done
 
@@ -60,6 +64,7 @@ $minimal || wanted+=("${tests[@]}" "${ros1[@]}" "${page[@]}")
 ! $with_bench || wanted+=("${bench[@]}")
 ! $with_browser || wanted+=("${browser[@]}")
 ! $with_fuzz || wanted+=("${fuzz[@]}")
+! $with_package || wanted+=("${package[@]}")
 if $print_only; then
   printf '%s\n' "${wanted[@]}"
   exit 0

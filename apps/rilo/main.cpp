@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "command.hpp"
+#include "describe_command.hpp"
 #include "failure.hpp"
 #include "text.hpp"
 #include "version.hpp"
@@ -18,6 +19,7 @@ constexpr const char* kFooter = R"(Examples:
   rilo run drive --view                                     watch it in a browser while it runs
   rilo view results                                         look at it again
   rilo bench experiments/ablation.yaml --data drive         several configurations on several drives
+  rilo report results other-results                         one page that compares runs
   rilo config --dump > my.yaml                              every key with its unit and meaning
 
 Exit codes: 0 success, 1 unexpected error, 2 wrong usage or configuration, 3 data missing or malformed,
@@ -42,9 +44,11 @@ int main(int argc, char** argv) {
   cli::add_bench_command(app, cli::command_line(argc, argv), exit_code);
   cli::add_view_command(app, exit_code);
   cli::add_quality_command(app, exit_code);
+  cli::add_report_command(app, exit_code);
   cli::add_simulate_command(app, exit_code);
   cli::add_config_command(app, exit_code);
   cli::add_info_command(app, exit_code);
+  cli::add_describe_commands(app, exit_code);
   try {
     app.parse(argc, argv);
     std::cout.flush();

@@ -13,7 +13,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 build=(build-essential cmake make libeigen3-dev libtbb-dev
        libcli11-dev libyaml-cpp-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libnanoflann-dev
-       libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev)
+       libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev libssl-dev)
 # librosbag-storage brings much of ROS along: without it everything but ROS 1 bags is read.
 tests=(librosbag-storage-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-dev
        python3-numpy python3-pytest pybind11-dev)

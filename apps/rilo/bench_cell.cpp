@@ -14,24 +14,6 @@ namespace rilo::cli {
 
 namespace {
 
-RunFlags run_flags(const BenchSequence& sequence, const BenchRunFlags& flags) {
-  RunFlags run;
-  run.data = sequence.path.string();
-  run.start = sequence.start;
-  run.count = flags.count > 0 ? flags.count : sequence.count;
-  run.quiet = flags.quiet;
-  run.no_report = true;
-  run.source = flags.source;
-  if (sequence.point_times) {
-    run.source.options.point_times = *sequence.point_times;
-    run.source.times_needed = false;
-  }
-  if (sequence.elevation_correction_deg) {
-    run.source.options.elevation_correction_deg = *sequence.elevation_correction_deg;
-  }
-  return run;
-}
-
 GivenPoses given(const BenchSequence& sequence, const std::filesystem::path& file) {
   return {file, sequence.camera_frame, sequence.max_gap_s};
 }
@@ -96,8 +78,26 @@ BenchCell peer_cell(const BenchSequence& sequence, const BenchPeer& peer, const 
 
 }  // namespace
 
+RunFlags run_flags(const BenchSequence& sequence, const BenchRunFlags& flags) {
+  RunFlags run;
+  run.data = sequence.path.string();
+  run.start = sequence.start;
+  run.count = flags.count > 0 ? flags.count : sequence.count;
+  run.quiet = flags.quiet;
+  run.no_report = true;
+  run.source = flags.source;
+  if (sequence.point_times) {
+    run.source.options.point_times = *sequence.point_times;
+    run.source.times_needed = false;
+  }
+  if (sequence.elevation_correction_deg) {
+    run.source.options.elevation_correction_deg = *sequence.elevation_correction_deg;
+  }
+  return run;
+}
+
 std::vector<BenchCell> run_cell(const BenchSequence& sequence, const BenchConfiguration& configuration,
-                                const BenchRunFlags& flags, bool with_peers) {
+                                const BenchRunFlags& flags) {
   RunRecord record;
   record.config = configuration.config;
   if (flags.threads >= 0) record.config.threads = flags.threads;
@@ -105,7 +105,7 @@ std::vector<BenchCell> run_cell(const BenchSequence& sequence, const BenchConfig
       {sequence.name, configuration.name, false, configuration.settings, {}, {}, {}, kSuccess}};
   guarded(cells.front(), [&] { run(run_flags(sequence, flags), sequence, record, cells.front()); });
   if (record.signal != 0) return {};
-  if (!with_peers || cells.front().failed()) return cells;
+  if (cells.front().failed()) return cells;
   for (const BenchPeer& peer : sequence.peers) cells.push_back(peer_cell(sequence, peer, record));
   return cells;
 }

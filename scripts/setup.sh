@@ -16,7 +16,8 @@ build=(build-essential cmake make libeigen3-dev libtbb-dev
        libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev libssl-dev)
 # librosbag-storage brings much of ROS along: without it everything but ROS 1 bags is read.
 tests=(librosbag-storage-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-dev
-       python3-numpy python3-pytest pybind11-dev)
+       python3-numpy python3-pytest pybind11-dev
+       slurmctld slurmd slurm-client munge)
 lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
 bench=(valgrind)

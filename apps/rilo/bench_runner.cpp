@@ -44,6 +44,12 @@ void describe_all(std::vector<BenchJob>& jobs, const BenchRunFlags& flags, const
   for (BenchJob& job : jobs) describer.describe(job);
 }
 
+std::string outcome_of(const BenchCell& cell) {
+  if (cell.failed()) return "failed: " + cell.error;
+  const auto t_rel = value_of(cell, bench_figure("t_rel_pct"));
+  return t_rel ? fmt::format("t_rel {:.4f} %", *t_rel) : "done";
+}
+
 class BenchRunner {
  public:
   BenchRunner(const BenchOrder& order, const std::vector<BenchJob>& jobs)
@@ -114,9 +120,7 @@ class BenchRunner {
     running_.erase(job.name());
     ++done_;
     const BenchCell& cell = record.cells.front();
-    progress_->say(fmt::format("[{}/{}] {}: {}", finished_jobs(), jobs_.size(), job.name(),
-                               cell.failed() ? "failed: " + cell.error
-                                             : "t_rel " + shown(value_of(cell, bench_figure("t_rel_pct")), 4) + " %"));
+    progress_->say(fmt::format("[{}/{}] {}: {}", finished_jobs(), jobs_.size(), job.name(), outcome_of(cell)));
     show_progress();
     if (Clock::now() - written_ > kShareOfWriting * writing_took_) write();
   }

@@ -7,6 +7,7 @@
 
 #include "checks.hpp"
 #include "command.hpp"
+#include "folder_lock.hpp"
 #include "interrupt.hpp"
 #include "rilo/config/config_file.hpp"
 #include "run_outputs.hpp"
@@ -65,6 +66,7 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   run.config = configuration(flags);
   const auto source = open_scan_source(flags.data, flags.source.options);
   prepare_outputs(flags);
+  const FolderLock lock(flags.out);
   const InterruptGuard guard;
   PartialPoses partial(flags.out);
   run_sweeps(flags, *source, partial, run);

@@ -175,7 +175,9 @@ class SlurmRun {
     Flight& flight = flights_[cell];
     if (const auto record = folder_.read(all_[cell])) return take(cell, *record);
     if (flight.end.empty()) {
-      flight.end = end_of_task(flight.task);
+      const std::string state = end_of_task(flight.task);
+      if (!is_over(state)) return;
+      flight.end = state;
       flight.gone = Clock::now();
     }
     const bool completed = flight.end == "COMPLETED";

@@ -1,5 +1,6 @@
 #include "slurm_commands.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -153,6 +154,13 @@ std::string end_of_task(const SlurmTask& task) {
   if (controller.code != 0) return "UNKNOWN";
   const std::string known = value_after(controller.out, "JobState");
   return known.empty() ? "UNKNOWN" : known;
+}
+
+bool is_over(const std::string& state) {
+  constexpr std::array kEnds = {"BOOT_FAIL", "CANCELLED", "COMPLETED", "DEADLINE", "FAILED", "NODE_FAIL",
+                                "OUT_OF_ME", "PREEMPTED", "REVOKED",   "TIMEOUT",  "UNKNOWN"};
+  // "CANCELLED by 1000" and the like.
+  return std::any_of(kEnds.begin(), kEnds.end(), [&](const char* end) { return state.starts_with(end); });
 }
 
 void cancel_tasks(const std::vector<SlurmTask>& tasks) {

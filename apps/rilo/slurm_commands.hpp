@@ -42,6 +42,9 @@ std::string submit_array(const std::filesystem::path& script, const std::string&
 /// one, else from the controller, which remembers for some minutes. "UNKNOWN" when neither knows.
 std::string end_of_task(const SlurmTask& task);
 
+/// Whether a task in that state has come to its end. A list of the queue may lack one that has not: that is not enough.
+bool is_over(const std::string& state);
+
 void cancel_tasks(const std::vector<SlurmTask>& tasks);
 
 }  // namespace rilo::cli

@@ -99,6 +99,8 @@ start() {
   echo "export SLURM_CONF=$SLURM_CONF"
 }
 
+queue_is_empty() { [ -z "$(squeue --noheader --me)" ]; }
+
 # By the numbers in our own files, and only while these are still the programs that we started.
 stop_one() {
   local dir="$1" name="$2" pid
@@ -111,8 +113,9 @@ stop_one() {
 stop() {
   local dir="$1"
   dir="$(cd "$dir" && pwd)" || die "$1: no such folder"
-  SLURM_CONF="$dir/slurm.conf" timeout 20 scancel --me >/dev/null 2>&1 || true
-  SLURM_CONF="$dir/slurm.conf" wait_for 50 sh -c '[ -z "$(squeue --noheader --me)" ]' || true
+  export SLURM_CONF="$dir/slurm.conf"
+  timeout 20 scancel --me >/dev/null 2>&1 || true
+  wait_for 50 queue_is_empty || true
   for name in slurmd slurmctld munged; do stop_one "$dir" "$name"; done
   rm -f "$dir/munge.sock" "$dir"/*.pid
 }

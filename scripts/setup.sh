@@ -15,13 +15,14 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 build=(build-essential cmake make libeigen3-dev libtbb-dev
        libcli11-dev libyaml-cpp-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libnanoflann-dev
-       libboost-dev libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev)
+       libboost-dev libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev libssl-dev)
 # Node.js builds the page of the viewer: left out where npm came from elsewhere, which Debian's would conflict with.
 page=()
 command -v npm >/dev/null || page=(nodejs npm)
 # librosbag-storage brings much of ROS along: without it and ROS' messages everything but ROS 1 bags is read.
 tests=(librosbag-storage-dev libnav-msgs-dev libtf2-msgs-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-dev
-       python3-numpy python3-pytest pybind11-dev)
+       python3-numpy python3-pytest pybind11-dev
+       slurmctld slurmd slurm-client munge)
 # The ROS 1 node and its tests; 45 MB.
 ros1=(libroscpp-dev libtopic-tools-dev libtf2-ros-dev libtf2-eigen-dev libdiagnostic-updater-dev libnav-msgs-dev
       libsensor-msgs-dev libgeometry-msgs-dev libstd-srvs-dev python3-gencpp python3-genpy ros-geometry-msgs ros-std-msgs

@@ -1,4 +1,5 @@
 // The rilo command: parses, dispatches, and turns every error into one line and an exit code.
+#include <csignal>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -35,6 +36,7 @@ int fail(int code, const std::string& message) {
 int main(int argc, char** argv) {
   using namespace rilo;
   int exit_code = cli::kSuccess;
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error with a message, as a full disk
   CLI::App app{"Rilo: LiDAR-only odometry with a reliable initial pose", "rilo"};
   app.set_version_flag("--version", std::string("rilo ") + cli::kVersion);
   app.require_subcommand(1);

@@ -28,8 +28,16 @@ void PartialPoses::add(const SE3& T_odom_lidar) {
       line += fmt::format("{}{:.12e}", line.empty() ? "" : " ", T_odom_lidar(row, column));
     }
   }
-  stream_ << line + "\n" << std::flush;
-  if (!stream_) throw CommandError(kCannotWrite, file_.string() + ": cannot be written; is the disk full?");
+  line += '\n';
+  stream_ << line << std::flush;
+  if (stream_) {
+    bytes_ += line.size();
+    return;
+  }
+  stream_.close();
+  std::error_code ignored;
+  std::filesystem::resize_file(file_, bytes_, ignored);  // half a line would spoil the file
+  throw CommandError(kCannotWrite, file_.string() + ": cannot be written; is the disk full?");
 }
 
 void PartialPoses::start_over() {

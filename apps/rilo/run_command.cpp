@@ -9,6 +9,7 @@
 
 #include "checks.hpp"
 #include "command.hpp"
+#include "folder_lock.hpp"
 #include "interrupt.hpp"
 #include "rilo/config/config_file.hpp"
 #include "run_outputs.hpp"
@@ -82,6 +83,7 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   run.config = configuration(flags);
   auto source = open_scan_source(flags.data, flags.source.options);
   prepare_outputs(flags);
+  const FolderLock lock(flags.out);
   const InterruptGuard guard;
   const auto view = open_view(flags, *source, run.config);
   PartialPoses partial(flags.out);

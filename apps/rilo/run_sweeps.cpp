@@ -5,7 +5,6 @@
 #include <exception>
 #include <fstream>
 #include <memory>
-#include <new>
 #include <optional>
 #include <string>
 #include <sys/resource.h>
@@ -14,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "failure.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "rilo/cloud/thinned_map.hpp"
@@ -76,10 +76,8 @@ class SweepLoop {
       fail(error.code(), error.what());
     } catch (const IoError& error) {
       fail(kBadData, error.what());
-    } catch (const std::bad_alloc&) {
-      fail(kUnexpected, "out of memory");
-    } catch (const std::exception& error) {
-      fail(kUnexpected, error.what());
+    } catch (const std::exception&) {
+      fail(kUnexpected, current_failure().message);
     }
     progress_.finish();
     run_.signal = InterruptGuard::signal();

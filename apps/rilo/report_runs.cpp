@@ -62,7 +62,7 @@ class Grouping {
 
   /// Last part of the data's path; the whole path when other data go by that name.
   std::string name_for(const RunRecord& record) const {
-    const std::string name = valid_utf8(last_name(record.data));
+    std::string name = valid_utf8(last_name(record.data));
     for (const ReportSequence& sequence : sequences_) {
       const auto& first = sequence.entries.front();
       if (sequence.name == name && first.run && !first.run->killed && !same_data(first.run->record, record)) {

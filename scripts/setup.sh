@@ -25,9 +25,9 @@ tests=(librosbag-storage-dev libnav-msgs-dev libtf2-msgs-dev git libgtest-dev li
        slurmctld slurmd slurm-client munge)
 # The ROS 1 node and its tests; 45 MB.
 ros1=(libroscpp-dev libtopic-tools-dev libtf2-ros-dev libtf2-eigen-dev libdiagnostic-updater-dev libnav-msgs-dev
-      libsensor-msgs-dev libgeometry-msgs-dev libstd-srvs-dev python3-gencpp python3-genpy ros-geometry-msgs ros-std-msgs
-      python3-roslaunch python3-rosbag python3-nav-msgs python3-sensor-msgs python3-diagnostic-msgs python3-tf2-msgs
-      python3-std-srvs)
+      libsensor-msgs-dev libgeometry-msgs-dev libstd-srvs-dev python3-gencpp python3-genpy ros-geometry-msgs
+      ros-std-msgs python3-roslaunch python3-rosbag python3-nav-msgs python3-sensor-msgs python3-diagnostic-msgs
+      python3-tf2-msgs python3-std-srvs)
 lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
 bench=(valgrind)

@@ -1,11 +1,10 @@
 """Node and sensor at their own pace: a drive is played in real time, and what the node says at the end is printed.
 
-    ROS_PACKAGE_PATH=PREFIX/share RILO_NODE=PREFIX/lib/rilo_ros/rilo_node python3 measure_real_time.py DRIVE [key=value ...]
+    RILO_NODE=PREFIX/lib/rilo_ros/rilo_node python3 measure_real_time.py DRIVE [key=value ...]
 
 DRIVE is a folder made by `rilo simulate`, or one of the same layout. The rest are parameters of the node.
 """
 
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -16,32 +15,33 @@ from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 
 import ros_bag
-from ros_system import Collector, running_node, start_roscore, stop, wait_for
+from ros_system import Collector, play, running_node, start_roscore, stop, wait_for
 
 
-def values(diagnostics):
-    return {pair.key: pair.value for pair in diagnostics.messages[-1].status[0].values}
+def finished(diagnostics, sweeps):
+    """The last report, once every sweep was registered or dropped."""
+    if not diagnostics.messages:
+        return None
+    report = {pair.key: pair.value for pair in diagnostics.messages[-1].status[0].values}
+    done = int(report.get("sweeps registered", 0)) + int(report.get("sweeps dropped", 0))
+    return report if done >= sweeps else None
 
 
 def measure(drive, parameters, folder):
     bag = folder / "drive.bag"
-    ros_bag.write_bag(bag, ros_bag.sweeps_of(drive))
+    sweeps = list(ros_bag.sweeps_of(drive))
+    ros_bag.write_bag(bag, sweeps)
     rospy.set_param("/use_sim_time", True)
     rospy.init_node("measure", disable_signals=True)
     odometry, diagnostics = Collector("/odometry", Odometry), Collector("/diagnostics", DiagnosticArray)
     with running_node(parameters):
         odometry.wait_connected()
         diagnostics.wait_connected()
-        subprocess.run(["rosbag", "play", "--clock", "--quiet", "--wait-for-subscribers", str(bag)], check=True,
-                       stdin=subprocess.DEVNULL)
-        seen = []
-
-        def settled():
-            seen.append(len(diagnostics.messages) and values(diagnostics)["sweeps registered"])
-            return seen[-1] and seen[-200:].count(seen[-1]) == 200  # four seconds
-
-        wait_for(settled, "the end of the work")
-        return values(diagnostics)
+        player = play(bag)
+        try:
+            return wait_for(lambda: finished(diagnostics, len(sweeps)), "the end of the drive")
+        finally:
+            stop(player)
 
 
 def main():

@@ -40,6 +40,12 @@ def stop(process):
             process.wait()
 
 
+def play(bag, *flags):
+    """The player, with the clock. It stays until it is stopped: leaving, it would lose messages still on their way."""
+    return subprocess.Popen(["rosbag", "play", "--clock", "--quiet", "--keep-alive", "--wait-for-subscribers", *flags,
+                             str(bag)], stdin=subprocess.DEVNULL)
+
+
 def start_roscore(folder):
     """roscore on a port that nobody uses; sets the environment so that all who are started later find it."""
     os.environ.update(ROS_HOME=str(folder), ROS_LOG_DIR=str(folder), ROS_IP="127.0.0.1", PYTHONUNBUFFERED="1")

@@ -43,6 +43,7 @@ void PartialPoses::add(const SE3& T_odom_lidar) {
 void PartialPoses::start_over() {
   if (file_.empty()) return;
   stream_.close();
+  bytes_ = 0;
   open();
 }
 

@@ -82,7 +82,7 @@ Placed placed_run(const ReportSequence& sequence, const ReportEntry& entry) {
     report.sweeps.clear();  // nothing is known of them
     report.dataset.clear();
   }
-  if (saved.record.map.empty()) {
+  if (saved.record.map.points.empty()) {
     report.facts.emplace_back("Map", "none in the folder; rilo run --map FOLDER/map.ply leaves one");
   }
   if (saved.record.truth) {

@@ -126,7 +126,7 @@ std::optional<fs::path> map_file(const fs::path& folder) {
 
 void read_map(SavedRun& run) {
   const auto file = map_file(run.folder);
-  if (file) run.record.map = (file->extension() == ".ply" ? read_ply(*file) : read_pcd(*file)).points;
+  if (file) run.record.map.points = (file->extension() == ".ply" ? read_ply(*file) : read_pcd(*file)).points;
 }
 
 void set_poses(const fs::path& file, RunRecord& run) {

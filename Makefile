@@ -1,5 +1,5 @@
 # Thin front door: each line calls a script. `make help` lists them.
-.PHONY: help setup demo test bench lint format docs coverage sanitize fuzz clean
+.PHONY: help setup demo test bench lint format docs coverage sanitize fuzz package clean
 
 help:      ## this list
 	@sed -n 's/^\([a-z]*\): *## */  make \1\t/p' Makefile | expand -t 20
@@ -23,5 +23,7 @@ sanitize:  ## the tests under AddressSanitizer and UBSan
 	@scripts/sanitize.sh
 fuzz:      ## a minute of fuzzing for each parser
 	@scripts/fuzz.sh
+package:   ## Debian packages in build/package
+	@scripts/package.sh
 clean:     ## remove build/ and out/
 	@rm -rf build out

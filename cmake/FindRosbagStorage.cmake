@@ -1,11 +1,11 @@
-# ROS 1's librosbag-storage as Debian packages it: target RosbagStorage::rosbag_storage. Its own configuration is for
+# ROS 1's librosbag-storage and messages as Debian packages them: target RosbagStorage::rosbag_storage. Its own configuration is for
 # catkin, and the headers that its headers include lie in folders of their own.
 include(FindPackageHandleStandardArgs)
 set(_needed "")
 set(_includes "")
 set(_libraries "")
 foreach(_header rosbag/bag.h pluginlib/class_loader.hpp class_loader/class_loader.hpp rcutils/logging_macros.h
-        rcpputils/find_and_replace.hpp ament_index_cpp/get_package_prefix.hpp)
+        rcpputils/find_and_replace.hpp ament_index_cpp/get_package_prefix.hpp nav_msgs/Odometry.h tf2_msgs/TFMessage.h)
   get_filename_component(_name "${_header}" DIRECTORY)
   find_path(RosbagStorage_${_name}_INCLUDE_DIR ${_header} PATH_SUFFIXES ${_name})
   list(APPEND _needed RosbagStorage_${_name}_INCLUDE_DIR)

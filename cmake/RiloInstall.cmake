@@ -51,8 +51,10 @@ endfunction()
 # Installs one library and adds its line to the table that rilo-config.cmake reads.
 function(rilo_install_library component target)
   install(TARGETS ${target} EXPORT rilo-${component}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(EXPORT rilo-${component} NAMESPACE rilo:: DESTINATION ${RILO_CMAKE_DIR} FILE rilo-${component}-targets.cmake)
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT dev)
+  install(EXPORT rilo-${component} NAMESPACE rilo:: DESTINATION ${RILO_CMAKE_DIR} FILE rilo-${component}-targets.cmake
+    COMPONENT dev)
   rilo_dependencies_of(${target} packages components)
   string(APPEND RILO_CONFIG_TABLE
     "set(_rilo_${component}_packages \"${packages}\")\nset(_rilo_${component}_components \"${components}\")\n")
@@ -71,7 +73,7 @@ endforeach()
 # Headers: the core's folders, and those of the components that are built.
 foreach(folder geometry cloud map registration odometry ${RILO_COMPONENTS})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/rilo/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rilo
-    FILES_MATCHING PATTERN "*.hpp")
+    COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rilo-config.cmake.in ${PROJECT_BINARY_DIR}/rilo-config.cmake
@@ -80,14 +82,23 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/rilo-config-version.cmake
 install(FILES ${PROJECT_BINARY_DIR}/rilo-config.cmake ${PROJECT_BINARY_DIR}/rilo-config-version.cmake
   ${CMAKE_CURRENT_LIST_DIR}/FindLZ4.cmake ${CMAKE_CURRENT_LIST_DIR}/FindPCAP.cmake
   ${CMAKE_CURRENT_LIST_DIR}/FindRosbagStorage.cmake ${CMAKE_CURRENT_LIST_DIR}/FindZSTD.cmake
-  DESTINATION ${RILO_CMAKE_DIR})
+  DESTINATION ${RILO_CMAKE_DIR} COMPONENT dev)
 # Relative, so that `cmake --install --prefix` and moved prefixes work.
 file(RELATIVE_PATH RILO_PC_TO_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(${CMAKE_CURRENT_LIST_DIR}/rilo.pc.in ${PROJECT_BINARY_DIR}/rilo.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/rilo.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${PROJECT_BINARY_DIR}/rilo.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 
 if(TARGET rilo_cli)
-  install(TARGETS rilo_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/config DESTINATION ${CMAKE_INSTALL_DATADIR}/rilo FILES_MATCHING PATTERN "*.yaml")
+  install(TARGETS rilo_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/config DESTINATION ${CMAKE_INSTALL_DATADIR}/rilo
+    COMPONENT command FILES_MATCHING PATTERN "*.yaml")
+  if(NOT CMAKE_CROSSCOMPILING)
+    set(docs ${PROJECT_BINARY_DIR}/command_docs)
+    install(FILES ${docs}/rilo.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+    install(FILES ${docs}/rilo DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT command)
+    install(FILES ${docs}/_rilo DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT command)
+    install(FILES ${docs}/rilo.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT command)
+  endif()
 endif()
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT library)
+include(RiloPackage)

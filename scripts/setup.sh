@@ -8,24 +8,32 @@
 #   scripts/setup.sh --bench    also Valgrind, which counts instructions
 #   scripts/setup.sh --browser  also Chromium, which the viewer's page is tested in
 #   scripts/setup.sh --fuzz     also Clang with libFuzzer
+#   scripts/setup.sh --package  also what building Debian packages needs
 #   scripts/setup.sh --print    print the package names instead of installing them
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 build=(build-essential cmake make libeigen3-dev libtbb-dev
        libcli11-dev libyaml-cpp-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libnanoflann-dev
-       libboost-dev libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev)
-# librosbag-storage brings much of ROS along: without it everything but ROS 1 bags is read.
+       libboost-dev libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev libssl-dev)
 # Node.js builds the page of the viewer: left out where npm came from elsewhere, which Debian's would conflict with.
 page=()
 command -v npm >/dev/null || page=(nodejs npm)
-tests=(librosbag-storage-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-dev
-       python3-numpy python3-pytest pybind11-dev)
+# librosbag-storage brings much of ROS along: without it and ROS' messages everything but ROS 1 bags is read.
+tests=(librosbag-storage-dev libnav-msgs-dev libtf2-msgs-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-dev
+       python3-numpy python3-pytest pybind11-dev
+       slurmctld slurmd slurm-client munge)
+# The ROS 1 node and its tests; 45 MB.
+ros1=(libroscpp-dev libtopic-tools-dev libtf2-ros-dev libtf2-eigen-dev libdiagnostic-updater-dev libnav-msgs-dev
+      libsensor-msgs-dev libgeometry-msgs-dev libstd-srvs-dev python3-gencpp python3-genpy ros-geometry-msgs
+      ros-std-msgs python3-roslaunch python3-rosbag python3-nav-msgs python3-sensor-msgs python3-diagnostic-msgs
+      python3-tf2-msgs python3-std-srvs)
 lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
 bench=(valgrind)
 browser=(chromium)
 fuzz=(clang libclang-rt-14-dev)
+package=(dpkg-dev file)
 
 minimal=false
 with_lint=false
@@ -33,6 +41,7 @@ with_docs=false
 with_bench=false
 with_fuzz=false
 with_browser=false
+with_package=false
 print_only=false
 for argument in "$@"; do
   case "$argument" in
@@ -42,19 +51,21 @@ for argument in "$@"; do
     --bench) with_bench=true ;;
     --fuzz) with_fuzz=true ;;
     --browser) with_browser=true ;;
+    --package) with_package=true ;;
     --print) print_only=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/setup.sh | grep -v '^shellcheck'; exit 0 ;;
-    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --browser --fuzz --print" ;;
+    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --browser --fuzz --package --print" ;;
   esac
 done
 
 wanted=("${build[@]}")
-$minimal || wanted+=("${tests[@]}" "${page[@]}")
+$minimal || wanted+=("${tests[@]}" "${ros1[@]}" "${page[@]}")
 ! $with_lint || wanted+=("${lint[@]}")
 ! $with_docs || wanted+=("${docs[@]}")
 ! $with_bench || wanted+=("${bench[@]}")
 ! $with_browser || wanted+=("${browser[@]}")
 ! $with_fuzz || wanted+=("${fuzz[@]}")
+! $with_package || wanted+=("${package[@]}")
 if $print_only; then
   printf '%s\n' "${wanted[@]}"
   exit 0

@@ -1,11 +1,11 @@
 #include "bench_baseline.hpp"
 
-#include <fstream>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "json_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "text.hpp"
 
@@ -40,19 +40,8 @@ std::string name_of(const Key& key) { return key.first + " × " + key.second; }
 }  // namespace
 
 nlohmann::json read_baseline(const std::filesystem::path& file) {
-  std::error_code ignored;
-  std::ifstream stream(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file, ignored) || !stream) {
-    throw IoError({file, "", "no file that can be read", kExpected, "Check the path after --baseline"});
-  }
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(stream);
-  } catch (const nlohmann::json::parse_error& error) {
-    throw IoError({file, fmt::format("byte {}", error.byte), "this is no JSON", kExpected, ""});
-  }
-  if (!json.is_object() || json.value("rilo_bench", nlohmann::json()) != 1 || !json.contains("cells") ||
-      !json["cells"].is_array()) {
+  const nlohmann::json json = read_json_object(file, kExpected, "Check the path after --baseline");
+  if (json.value("rilo_bench", nlohmann::json()) != 1 || !json.contains("cells") || !json["cells"].is_array()) {
     throw IoError(
         {file, "", "JSON of another kind", std::string(kExpected) + " (\"rilo_bench\": 1 and a list cells)", ""});
   }

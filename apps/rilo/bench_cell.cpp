@@ -14,24 +14,6 @@ namespace rilo::cli {
 
 namespace {
 
-RunFlags run_flags(const BenchSequence& sequence, const BenchRunFlags& flags) {
-  RunFlags run;
-  run.data = sequence.path.string();
-  run.start = sequence.start;
-  run.count = flags.count > 0 ? flags.count : sequence.count;
-  run.quiet = flags.quiet;
-  run.no_report = true;
-  run.source = flags.source;
-  if (sequence.point_times) {
-    run.source.options.point_times = *sequence.point_times;
-    run.source.times_needed = false;
-  }
-  if (sequence.elevation_correction_deg) {
-    run.source.options.elevation_correction_deg = *sequence.elevation_correction_deg;
-  }
-  return run;
-}
-
 GivenPoses given(const BenchSequence& sequence, const std::filesystem::path& file) {
   return {file, sequence.camera_frame, sequence.max_gap_s};
 }
@@ -68,9 +50,9 @@ void run(const RunFlags& flags, const BenchSequence& sequence, RunRecord& record
   record.data = flags.data;
   const auto truth = truth_file(sequence);
   if (truth) read_poses(truth->file);  // rather found out now than after the run
-  const auto source = open_scan_source(flags.data, flags.source.options);
+  auto source = open_scan_source(flags.data, flags.source.options);
   PartialPoses no_partial({});
-  run_sweeps(flags, *source, no_partial, record);
+  run_sweeps(flags, std::move(source), no_partial, record, nullptr);
   if (record.signal != 0) return;
   if (!record.error.empty()) throw CommandError(record.error_code, record.error);
   evaluate_run(record, truth);
@@ -96,8 +78,26 @@ BenchCell peer_cell(const BenchSequence& sequence, const BenchPeer& peer, const 
 
 }  // namespace
 
+RunFlags run_flags(const BenchSequence& sequence, const BenchRunFlags& flags) {
+  RunFlags run;
+  run.data = sequence.path.string();
+  run.start = sequence.start;
+  run.count = flags.count > 0 ? flags.count : sequence.count;
+  run.quiet = flags.quiet;
+  run.no_report = true;
+  run.source = flags.source;
+  if (sequence.point_times) {
+    run.source.options.point_times = *sequence.point_times;
+    run.source.times_needed = false;
+  }
+  if (sequence.elevation_correction_deg) {
+    run.source.options.elevation_correction_deg = *sequence.elevation_correction_deg;
+  }
+  return run;
+}
+
 std::vector<BenchCell> run_cell(const BenchSequence& sequence, const BenchConfiguration& configuration,
-                                const BenchRunFlags& flags, bool with_peers) {
+                                const BenchRunFlags& flags) {
   RunRecord record;
   record.config = configuration.config;
   if (flags.threads >= 0) record.config.threads = flags.threads;
@@ -105,7 +105,7 @@ std::vector<BenchCell> run_cell(const BenchSequence& sequence, const BenchConfig
       {sequence.name, configuration.name, false, configuration.settings, {}, {}, {}, kSuccess}};
   guarded(cells.front(), [&] { run(run_flags(sequence, flags), sequence, record, cells.front()); });
   if (record.signal != 0) return {};
-  if (!with_peers || cells.front().failed()) return cells;
+  if (cells.front().failed()) return cells;
   for (const BenchPeer& peer : sequence.peers) cells.push_back(peer_cell(sequence, peer, record));
   return cells;
 }

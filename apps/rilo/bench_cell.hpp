@@ -1,6 +1,7 @@
 // One cell of a benchmark: a configuration on a sequence.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@
 #include "command.hpp"
 #include "rilo/config/bench_plan.hpp"
 #include "rilo/evaluation/kitti_error.hpp"
-#include "source_flags.hpp"
+#include "run_flags.hpp"
 
 namespace rilo::cli {
 
@@ -23,6 +24,8 @@ struct BenchCell {
   std::optional<KittiError> kitti;    ///< segments, for pooling
   std::string error;                  ///< empty: it succeeded
   ExitCode error_code = kSuccess;
+  std::string log = {};    ///< what the program said meanwhile, beside the results; empty: not kept
+  std::size_t repeat = 1;  ///< counted from 1
 
   bool failed() const { return !error.empty(); }
 };
@@ -35,9 +38,12 @@ struct BenchRunFlags {
   SourceFlags source;  ///< where the plan does not say otherwise
 };
 
-/// Runs one cell, then, if `with_peers`, compares the sequence's peers on the same sweeps. Whatever goes wrong stands
-/// in the cells. An interrupted cell is not among them.
+/// What `rilo run` would be told for that sequence.
+RunFlags run_flags(const BenchSequence& sequence, const BenchRunFlags& flags);
+
+/// Runs one cell, then compares the sequence's peers on the same sweeps. Whatever goes wrong stands in the cells. An
+/// interrupted cell is not among them.
 std::vector<BenchCell> run_cell(const BenchSequence& sequence, const BenchConfiguration& configuration,
-                                const BenchRunFlags& flags, bool with_peers);
+                                const BenchRunFlags& flags);
 
 }  // namespace rilo::cli

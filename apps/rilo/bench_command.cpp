@@ -1,21 +1,20 @@
 // rilo bench: several configurations on several sequences.
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <set>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench_baseline.hpp"
 #include "bench_paper.hpp"
-#include "bench_process.hpp"
+#include "bench_runner.hpp"
 #include "checks.hpp"
 #include "command.hpp"
-#include "interrupt.hpp"
 #include "rilo/config/config_file.hpp"
-#include "rilo/io/atomic_file.hpp"
-#include "rilo/io/io_error.hpp"
-#include "run_outputs.hpp"
 #include "text.hpp"
 
 namespace rilo::cli {
@@ -23,23 +22,31 @@ namespace rilo::cli {
 namespace {
 
 constexpr const char* kBenchFooter =
-    R"(FILE lists sequences and configurations; each configuration is run on each sequence, one after the other. See
+    R"(FILE lists sequences and configurations; each configuration is run on each sequence, in a process of its own. See
 docs/bench.md for its keys. A cell that fails is reported, the others still run (exit code 3 at the end, or that of the
-first failure). Ctrl-C ends the benchmark and writes what is finished.
+first failure). Ctrl-C ends the benchmark and writes what is finished. The same command again runs only what is not
+finished: cells that failed, that were interrupted, or whose data, configuration or program were changed.
 
   configurations:
     - name: full
     - name: A, no coarse registration
       set: [coarse.enabled=false]
 
-Leaves in --out: results.json, results.csv, results.md.
+Leaves in --out: results.json, results.csv, results.md, results.sqlite; in cells/ a file and a log a cell.
 
 Examples:
-  rilo bench experiments/ablation.yaml --root drives --out results
+  rilo bench experiments/ablation.yaml --root drives --out results --jobs 4
   rilo bench experiments/ablation.yaml --data drives/a drives/b
   rilo bench my.yaml --count 200 --baseline results/results.json
+  rilo bench my.yaml --out results --on slurm --sbatch=--time=60 --retries 2
+  rilo bench show results
   rilo bench kitti data/kitti --out results/kitti
   rilo bench m2dgr data/m2dgr)";
+
+constexpr const char* kShowFooter =
+    R"(Examples:
+  rilo bench show results
+  rilo bench show results/results.sqlite --format csv --no-times)";
 
 constexpr const char* kKittiFooter =
     R"(ROOT/sequences/00/velodyne …, ROOT/sequences/00/calib.txt and ROOT/poses/00.txt as in the KITTI odometry data set;
@@ -62,23 +69,17 @@ struct BenchFlags {
   std::string plan;
   std::vector<std::string> data;
   std::string root;  // of the plan's sequences, or of the data set
-  std::string out;
-  std::string baseline;
   std::string config_file;
   std::vector<std::string> settings;
-  std::string command_line;
-  BenchRunFlags run;
+  std::optional<std::size_t> repeats;
+  std::optional<std::size_t> cell;
+  std::string format = "text";
+  bool no_times = false;
+  BenchOrder order;
 };
 
-using Tables = std::vector<TitledTable>;
-using PaperTables = Tables (*)(const std::vector<BenchCell>&);
-
 // Data of the command line in the place of the plan's.
-std::vector<BenchSequence> sequences_of(const BenchPlan& plan, const BenchFlags& flags) {
-  if (flags.data.empty() && plan.sequences.empty()) {
-    throw CommandError(kUsage, flags.plan + ": no sequences: in it; expected them there or folders after --data");
-  }
-  if (flags.data.empty()) return plan.sequences;
+std::vector<BenchSequence> sequences_of(const BenchFlags& flags) {
   std::vector<BenchSequence> sequences;
   std::set<std::string> names;
   for (const std::string& path : flags.data) {
@@ -91,18 +92,42 @@ std::vector<BenchSequence> sequences_of(const BenchPlan& plan, const BenchFlags&
   return sequences;
 }
 
-std::vector<BenchJob> plan_jobs(const BenchFlags& flags) {
-  const BenchPlan plan = load_bench_plan(flags.plan, flags.root);
-  std::vector<BenchJob> jobs;
-  for (const BenchSequence& sequence : sequences_of(plan, flags)) {
-    for (const BenchConfiguration& configuration : plan.configurations) jobs.push_back({sequence, configuration});
+void leave_out_missing(const BenchFlags& flags, BenchPlan& plan) {
+  std::string missing;
+  std::vector<BenchSequence> there;
+  for (const BenchSequence& sequence : plan.sequences) {
+    std::error_code ignored;
+    if (std::filesystem::exists(sequence.path, ignored)) {
+      there.push_back(sequence);
+    } else {
+      missing += (missing.empty() ? "" : ", ") + sequence.path.string();
+    }
   }
-  return jobs;
+  if (there.empty()) {
+    throw CommandError(kBadData, flags.plan + ": none of its sequences is there: " + missing +
+                                     "; name the folder that they lie in with --root");
+  }
+  if (!missing.empty() && !flags.order.run.quiet) std::cerr << "left out, as they are not there: " << missing << '\n';
+  plan.sequences = there;
+}
+
+std::vector<BenchJob> plan_jobs(BenchFlags& flags) {
+  BenchPlan plan = load_bench_plan(flags.plan, flags.root);
+  if (!flags.data.empty()) plan.sequences = sequences_of(flags);
+  if (plan.sequences.empty()) {
+    throw CommandError(kUsage, flags.plan + ": no sequences: in it; expected them there or folders after --data");
+  }
+  if (plan.skip_missing && flags.data.empty()) leave_out_missing(flags, plan);
+  if (flags.repeats) plan.repeats = *flags.repeats;
+  flags.order.tables = plan.tables;
+  return jobs_of(plan);
 }
 
 // Of the command line, for KITTI and M2DGR.
 BenchConfiguration configuration_of(const BenchFlags& flags) {
-  BenchConfiguration result{"rilo", {}, flags.settings};
+  BenchConfiguration result;
+  result.name = "rilo";
+  result.settings = flags.settings;
   if (!flags.config_file.empty()) {
     result.config = load_config(flags.config_file);
     result.settings.insert(result.settings.begin(), "config " + last_name(flags.config_file));
@@ -111,120 +136,44 @@ BenchConfiguration configuration_of(const BenchFlags& flags) {
   return result;
 }
 
-class Bench {
- public:
-  Bench(const BenchFlags& flags, PaperTables paper) : flags_(flags), paper_(paper) {
-    bench_.command_line = flags.command_line;
-    if (!flags.baseline.empty()) baseline_ = read_baseline(flags.baseline);
-    RunFlags outputs;
-    outputs.out = flags.out;
-    prepare_outputs(outputs);
-  }
-
-  int run(const std::vector<BenchJob>& jobs) {
-    bench_.planned = jobs.size();
-    {
-      const InterruptGuard guard;
-      for (std::size_t i = 0; i < jobs.size() && InterruptGuard::signal() == 0; ++i) run_job(jobs[i]);
-      bench_.signal = bench_.run < jobs.size() ? InterruptGuard::signal() : 0;
-      if (bench_.signal == 0) add_missing_peers(jobs);
-      write();
-    }
-    std::cout << (bench_.cells.empty() ? "" : plain_text(tables()));
-    return finish();
-  }
-
- private:
-  void run_job(const BenchJob& job) {
-    const std::string name = fmt::format("{} × {}", job.sequence.name, job.configuration.name);
-    if (!flags_.run.quiet) std::cerr << fmt::format("[{}/{}] {}\n", bench_.run + 1, bench_.planned, name);
-    const bool with_peers = peers_done_.count(job.sequence.name) == 0;
-    const std::vector<BenchCell> cells = run_cell_apart(job.sequence, job.configuration, flags_.run, with_peers);
-    if (cells.empty()) return;  // interrupted
-    ++bench_.run;
-    if (cells.front().failed()) {
-      if (!flags_.run.quiet) std::cerr << "failed: " << cells.front().error << '\n';
-    } else {
-      peers_done_.insert(job.sequence.name);
-    }
-    bench_.cells.insert(bench_.cells.end(), cells.begin(), cells.end());
-    write();
-  }
-
-  // Which sweeps to compare is only known from a run.
-  void add_missing_peers(const std::vector<BenchJob>& jobs) {
-    for (const BenchJob& job : jobs) {
-      if (!peers_done_.insert(job.sequence.name).second) continue;
-      for (const BenchPeer& peer : job.sequence.peers) {
-        bench_.cells.push_back({job.sequence.name,
-                                peer.name,
-                                true,
-                                {peer.poses.string()},
-                                {},
-                                {},
-                                "no configuration could be run on this sequence",
-                                kBadData});
-      }
-    }
-  }
-
-  Tables tables() const {
-    Tables tables = bench_tables(bench_.cells);
-    if (paper_ != nullptr) {
-      const Tables paper = paper_(bench_.cells);
-      tables.insert(tables.end(), paper.begin(), paper.end());
-    }
-    if (!baseline_.is_null()) tables.push_back(baseline_table(bench_.cells, baseline_, flags_.baseline));
-    return tables;
-  }
-
-  // After each cell: whatever ends the program, what is finished is there.
-  void write() const {
-    if (flags_.out.empty()) return;
-    const std::filesystem::path folder = flags_.out;
-    try {
-      write_atomically(folder / "results.json", json_text(results_json(bench_)));
-      write_atomically(folder / "results.csv", bench_csv(bench_.cells).csv());
-      write_atomically(folder / "results.md", "# " + bench_.command_line + "\n\n" + markdown_text(tables()));
-    } catch (const IoError& error) {
-      throw CommandError(kCannotWrite, error.what());
-    }
-  }
-
-  int finish() const {
-    if (!flags_.out.empty() && !flags_.run.quiet) std::cout << "\nresults in " << flags_.out << '\n';
-    if (bench_.signal != 0) {
-      std::cerr << fmt::format("rilo: interrupted, {} of {} cells are finished\n", bench_.run, bench_.planned);
-      return kSignalBase + bench_.signal;
-    }
-    std::size_t failed = 0;
-    const BenchCell* first = nullptr;
-    for (const BenchCell& cell : bench_.cells) {
-      failed += cell.failed() ? 1 : 0;
-      if (cell.failed() && first == nullptr) first = &cell;
-    }
-    if (first == nullptr) return kSuccess;
-    throw CommandError(first->error_code, fmt::format("{} of {} failed; the first: {} × {}: {}", failed,
-                                                      counted(bench_.cells.size(), "cell"), first->sequence,
-                                                      first->configuration, first->error));
-  }
-
-  const BenchFlags& flags_;
-  PaperTables paper_;
-  BenchRecord bench_;
-  nlohmann::json baseline_;
-  std::set<std::string> peers_done_;
-};
+std::vector<BenchJob> paper_jobs(BenchFlags& flags, PaperTables tables) {
+  flags.order.tables = tables;
+  const BenchConfiguration configuration = configuration_of(flags);
+  const auto jobs =
+      tables == PaperTables::kKitti ? kitti_jobs(flags.root, configuration) : m2dgr_jobs(flags.root, configuration);
+  return repeated(jobs, flags.repeats.value_or(1));
+}
 
 void add_common_flags(CLI::App& command, BenchFlags& flags) {
-  command.add_option("--out", flags.out, "folder for the results (created)")->check(path_given());
-  command.add_option("--baseline", flags.baseline, "results.json of an earlier benchmark to print the difference to")
+  BenchOrder& order = flags.order;
+  command.add_option("--out", order.out, "folder for the results (created); what is finished there is not run again")
       ->check(path_given());
-  command.add_option("--count", flags.run.count, "run that many sweeps of every sequence; 0: all, or as FILE says")
+  command.add_option("--baseline", order.baseline, "results.json of an earlier benchmark to print the difference to")
+      ->check(path_given());
+  command.add_option("--count", order.run.count, "run that many sweeps of every sequence; 0: all, or as FILE says")
       ->check(whole_number());
-  command.add_option("--threads", flags.run.threads, "threads; 0: as many as the machine has. Default: as configured")
+  command
+      .add_option("--threads", order.run.threads,
+                  "threads; 0: as many as the machine has. Default: as configured; with --jobs, an equal share of the "
+                  "machine's; on Slurm, the processors of the task")
       ->check(whole_number(1024));
-  command.add_flag("--quiet", flags.run.quiet, "no progress, no warnings");
+  command
+      .add_option_function<std::string>(
+          "--on", [&order](const std::string& where) { order.on_slurm = where == "slurm"; },
+          "local (default), or slurm: cells as job arrays, see docs/cluster.md")
+      ->check(CLI::IsMember({"local", "slurm"}));
+  command
+      .add_option("--jobs", order.at_a_time,
+                  "cells at a time; default: one here (times are then its own), on Slurm as many as it has room for")
+      ->check(whole_number(10000));
+  command.add_option("--retries", order.retries, "run a cell that failed that many times more")
+      ->check(whole_number(100));
+  command.add_option("--repeats", flags.repeats, "run every cell that often, in the place of what FILE says")
+      ->check(number_within(1, 1000));
+  command.add_option("--sbatch", order.sbatch, "option for sbatch, repeatable: --sbatch=--time=60")
+      ->allow_extra_args(false);
+  command.add_option("--cell", flags.cell, "cell to run alone: what the jobs of --on slurm are told")->group("");
+  command.add_flag("--quiet", order.run.quiet, "no progress, no warnings");
 }
 
 void add_paper_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags, const char* name, const char* help,
@@ -237,26 +186,51 @@ void add_paper_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags
   add_common_flags(*command, *flags);
 }
 
-int bench_command(const CLI::App& command, const BenchFlags& flags) {
-  if (command.got_subcommand("kitti") || command.got_subcommand("m2dgr")) {
+void add_show_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags) {
+  CLI::App* command = bench.add_subcommand("show", "tables of an earlier benchmark");
+  command->footer(kShowFooter);
+  command->add_option("STORE", flags->root, "results.sqlite, or the folder it lies in")
+      ->required()
+      ->check(path_given());
+  command->add_option("--format", flags->format, "text (default), markdown, csv")
+      ->check(CLI::IsMember({"text", "markdown", "csv"}));
+  command->add_flag("--no-times", flags->no_times,
+                    "leave out the columns of time and memory: what is left is the same on every machine");
+}
+
+int run_jobs(const BenchFlags& flags, std::vector<BenchJob> jobs) {
+  const BenchOrder& order = flags.order;
+  if (order.out.empty() && (order.on_slurm || flags.cell)) {
+    throw CommandError(kUsage, "bench: --on slurm needs --out, a folder on a file system that the nodes share");
+  }
+  if (!order.on_slurm && !order.sbatch.empty()) {
+    throw CommandError(kUsage, "bench: --sbatch goes with --on slurm");
+  }
+  return flags.cell ? run_bench_cell(order, std::move(jobs), *flags.cell) : run_bench(order, std::move(jobs));
+}
+
+int bench_command(const CLI::App& command, BenchFlags& flags) {
+  const auto chosen = command.get_subcommands();
+  if (!chosen.empty()) {
+    const std::string name = chosen.front()->get_name();
     if (!flags.plan.empty() || !flags.data.empty() || command.count("--root") > 0) {
-      throw CommandError(kUsage,
-                         "bench: FILE, --root and --data do not go with kitti or m2dgr. See: rilo bench --help");
+      throw CommandError(kUsage, "bench: FILE, --root and --data do not go with " + name + ". See: rilo bench --help");
     }
-    const bool kitti = command.got_subcommand("kitti");
-    const BenchConfiguration configuration = configuration_of(flags);
-    const auto jobs = kitti ? kitti_jobs(flags.root, configuration) : m2dgr_jobs(flags.root, configuration);
-    return Bench(flags, kitti ? kitti_tables : m2dgr_tables).run(jobs);
+    if (name == "show") {
+      show_bench(flags.root, flags.format, !flags.no_times);
+      return kSuccess;
+    }
+    return run_jobs(flags, paper_jobs(flags, name == "kitti" ? PaperTables::kKitti : PaperTables::kM2dgr));
   }
   if (flags.plan.empty()) throw CommandError(kUsage, "bench: FILE is required. See: rilo bench --help");
-  return Bench(flags, nullptr).run(plan_jobs(flags));
+  return run_jobs(flags, plan_jobs(flags));
 }
 
 }  // namespace
 
 void add_bench_command(CLI::App& app, const std::string& command_line, int& exit_code) {
   auto flags = std::make_shared<BenchFlags>();
-  flags->command_line = command_line;
+  flags->order.command_line = command_line;
   CLI::App* command = app.add_subcommand("bench", "several configurations on several sequences");
   command->footer(kBenchFooter);
   command->add_option("FILE", flags->plan, "YAML with sequences and configurations")->check(path_given());
@@ -265,9 +239,10 @@ void add_bench_command(CLI::App& app, const std::string& command_line, int& exit
   command->add_option("--data", flags->data, "folders or files with sweeps, in the place of FILE's sequences")
       ->check(path_given());
   add_common_flags(*command, *flags);
-  add_source_flags(*command, flags->run.source);
+  add_source_flags(*command, flags->order.run.source);
   add_paper_command(*command, flags, "kitti", "the paper's Tables I and II", kKittiFooter);
   add_paper_command(*command, flags, "m2dgr", "the paper's Table III", kM2dgrFooter);
+  add_show_command(*command, flags);
   command->require_subcommand(0, 1);
   command->callback([flags, command, &exit_code] { exit_code = bench_command(*command, *flags); });
 }

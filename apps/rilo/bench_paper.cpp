@@ -183,6 +183,13 @@ bool in_table_3(const std::string& name) {
                      [&](const char* known) { return plain_name(known) == plain_name(name); });
 }
 
+BenchJob job_of(const BenchSequence& sequence, const BenchConfiguration& configuration) {
+  BenchJob job;
+  job.sequence = sequence;
+  job.configuration = configuration;
+  return job;
+}
+
 }  // namespace
 
 std::vector<BenchJob> kitti_jobs(const fs::path& root, const BenchConfiguration& configuration) {
@@ -194,7 +201,7 @@ std::vector<BenchJob> kitti_jobs(const fs::path& root, const BenchConfiguration&
     sequence.path = root / "sequences" / name;
     if (!fs::is_directory(sequence.path / "velodyne", ignored)) continue;
     for (const double degrees : {0.0, kKittiElevationDeg}) {
-      BenchJob job{sequence, configuration};
+      BenchJob job = job_of(sequence, configuration);
       job.sequence.elevation_correction_deg = degrees;
       job.configuration.name = fmt::format("{}, {}°", configuration.name, degrees);
       job.configuration.config.elevation.enabled = false;
@@ -202,7 +209,7 @@ std::vector<BenchJob> kitti_jobs(const fs::path& root, const BenchConfiguration&
       jobs.push_back(job);
     }
     if (!configuration.config.elevation.enabled) continue;
-    BenchJob job{sequence, configuration};
+    BenchJob job = job_of(sequence, configuration);
     job.sequence.elevation_correction_deg = 0;
     job.configuration.name = configuration.name + ", own estimate";
     jobs.push_back(job);
@@ -216,21 +223,24 @@ std::vector<BenchJob> kitti_jobs(const fs::path& root, const BenchConfiguration&
   return jobs;
 }
 
-std::vector<TitledTable> kitti_tables(const std::vector<BenchCell>& cells) {
+std::vector<TitledTable> kitti_tables(const std::vector<BenchCell>& cells, MeasuredColumns measured) {
   const std::vector<OurRow> ours = our_rows(cells);
   const std::string protocol =
       "Ours: 0° and 0.205° are the two protocols of the field, points as recorded and with KITTI's elevation "
       "correction typed in, both without Rilo's own estimate (elevation.enabled=false); \"own estimate\" is told "
       "nothing and finds the elevation error itself. The paper does not name its protocol.";
-  return {{"Table I: APE on KITTI (m)", table_1(ours),
-           "Columns of the paper as printed (its Fast-gicp RMSE of 00 and 01 contradict their means and deviations); "
-           "\"paper\" is "
-           "its own method. " +
-               protocol},
-          {"Table II: time a sweep on KITTI (ms)", method_table(paper_table_2(), ours, kKittiSequences, "ms_mean", 1),
-           "The paper's times are of its own machine; rows and averages as printed (those of DLO and KISS-ICP do not "
-           "follow "
-           "from their rows: 27.9 and 26.7). Ours: mean of all sweeps, reading excluded."}};
+  std::vector<TitledTable> tables = {
+      {"Table I: APE on KITTI (m)", table_1(ours),
+       "Columns of the paper as printed (its Fast-gicp RMSE of 00 and 01 contradict their means and deviations); "
+       "\"paper\" is "
+       "its own method. " +
+           protocol},
+      {"Table II: time a sweep on KITTI (ms)", method_table(paper_table_2(), ours, kKittiSequences, "ms_mean", 1),
+       "The paper's times are of its own machine; rows and averages as printed (those of DLO and KISS-ICP do not "
+       "follow "
+       "from their rows: 27.9 and 26.7). Ours: mean of all sweeps, reading excluded."}};
+  if (measured == MeasuredColumns::kWithout) tables.pop_back();
+  return tables;
 }
 
 std::vector<BenchJob> m2dgr_jobs(const fs::path& root, const BenchConfiguration& configuration) {
@@ -239,7 +249,7 @@ std::vector<BenchJob> m2dgr_jobs(const fs::path& root, const BenchConfiguration&
     std::error_code ignored;
     const fs::path truth = root / (name + ".txt");
     if (!fs::is_regular_file(truth, ignored) && !in_table_3(name)) continue;
-    BenchJob job{{}, configuration};
+    BenchJob job = job_of({}, configuration);
     job.sequence.name = name;
     job.sequence.path = path;
     job.sequence.ground_truth = truth;

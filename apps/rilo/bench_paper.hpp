@@ -5,23 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "bench_job.hpp"
 #include "bench_tables.hpp"
 
 namespace rilo::cli {
-
-/// A cell to run.
-struct BenchJob {
-  BenchSequence sequence;
-  BenchConfiguration configuration;
-};
 
 /// ROOT/sequences/00 … 10, those that exist, each as recorded and with KITTI's elevation correction, both without
 /// Rilo's own estimate of it; and as recorded with that estimate, if the configuration has it on.
 /// @throws CommandError(kBadData) when there is none.
 std::vector<BenchJob> kitti_jobs(const std::filesystem::path& root, const BenchConfiguration& configuration);
 
-/// Tables I and II, our columns beside the paper's.
-std::vector<TitledTable> kitti_tables(const std::vector<BenchCell>& cells);
+/// Tables I and II (times), our columns beside the paper's.
+std::vector<TitledTable> kitti_tables(const std::vector<BenchCell>& cells,
+                                      MeasuredColumns measured = MeasuredColumns::kWith);
 
 /// ROOT/NAME/ with sweeps, or ROOT/NAME.bag, and ROOT/NAME.txt with the true poses (TUM form), for every NAME that has
 /// such poses or is in Table III. What cannot be read fails in its cell.

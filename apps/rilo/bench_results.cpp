@@ -21,6 +21,7 @@ nlohmann::json cell_json(const BenchCell& cell) {
                          {"figures", figures},
                          {"metrics", cell.metrics}};
   if (cell.failed()) json["error"] = cell.error;
+  if (!cell.log.empty()) json["log"] = cell.log;
   return json;
 }
 
@@ -73,15 +74,15 @@ const std::vector<BenchFigure>& bench_figures() {
       {"ape_unaligned_rmse_m", "unaligned rmse m", "/evaluation/ape_unaligned_m/rmse", 4},
       {"rpe_frame_rmse_m", "RPE m", "/evaluation/rpe_frame_m/rmse", 4},
       {"rpe_frame_rmse_deg", "RPE °", "/evaluation/rpe_frame_deg/rmse", 4},
-      {"ms_mean", "ms mean", "/ms/mean", 1},
-      {"ms_median", "median", "/ms/median", 1},
-      {"ms_p95", "p95", "/ms/p95", 1},
-      {"ms_p99", "p99", "/ms/p99", 1},
-      {"ms_max", "max", "/ms/max", 1},
+      {"ms_mean", "ms mean", "/ms/mean", 1, true},
+      {"ms_median", "median", "/ms/median", 1, true},
+      {"ms_p95", "p95", "/ms/p95", 1, true},
+      {"ms_p99", "p99", "/ms/p99", 1, true},
+      {"ms_max", "max", "/ms/max", 1, true},
       {"mean_iterations", "iterations", "/mean_iterations", 2},
       {"selection_rate_pct", "selected %", "/selection_rate_pct", 2},
       {"coarse_rate_pct", "coarse %", "/coarse_rate_pct", 2},
-      {"peak_rss_mb", "peak MiB", "/peak_rss_mb", 0},
+      {"peak_rss_mb", "peak MiB", "/peak_rss_mb", 0, true},
       {"elevation_offset_applied_deg", "own °", "/elevation_offset_applied_deg", 3}};
   return kFigures;
 }

@@ -1,6 +1,7 @@
 #include "bench_tables.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,15 @@ const std::vector<std::string> kAccuracy = {"t_rel_pct",  "r_rel_deg_per_100m", 
 const std::vector<std::string> kEffort = {
     "ms_mean",         "ms_median",          "ms_p95",          "ms_p99",     "ms_max",
     "mean_iterations", "selection_rate_pct", "coarse_rate_pct", "peak_rss_mb"};
+
+// Of `keys` those that are wanted.
+std::vector<std::string> wanted(const std::vector<std::string>& keys, MeasuredColumns measured) {
+  std::vector<std::string> result;
+  std::copy_if(keys.begin(), keys.end(), std::back_inserter(result), [&](const std::string& key) {
+    return measured == MeasuredColumns::kWith || !bench_figure(key).measured;
+  });
+  return result;
+}
 
 void add_titles(TextTable& table, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) table.header.emplace_back(bench_figure(key).title);
@@ -64,31 +74,32 @@ TitledTable accuracy(const std::vector<BenchCell>& cells) {
   return result;
 }
 
-TitledTable effort(const std::vector<BenchCell>& cells) {
+TitledTable effort(const std::vector<BenchCell>& cells, MeasuredColumns measured) {
+  const std::vector<std::string> keys = wanted(kEffort, measured);
   TitledTable result{"Effort", {}, ""};
   result.table.left = 2;
   result.table.header = {"sequence", "configuration", "sweeps"};
-  add_titles(result.table, kEffort);
+  add_titles(result.table, keys);
   result.table.header.emplace_back("status");
   for (const BenchCell& cell : cells) {
     if (cell.peer) continue;
     std::vector<std::string> row = {cell.sequence, cell.configuration,
                                     cell.failed() ? "failed" : text_at(cell.metrics, "/frames")};
-    add_values(row, cell, kEffort);
+    add_values(row, cell, keys);
     row.push_back(statuses(cell.metrics));
     result.table.rows.push_back(row);
   }
-  result.note =
-      "Milliseconds a sweep without reading. selected: sweeps that began with the coarse result; coarse: that "
-      "ran the coarse stage.";
+  result.note = measured == MeasuredColumns::kWith ? "Milliseconds a sweep without reading. " : "";
+  result.note += "selected: sweeps that began with the coarse result; coarse: that ran the coarse stage.";
   return result;
 }
 
-TitledTable averages(const std::vector<BenchCell>& cells) {
+TitledTable averages(const std::vector<BenchCell>& cells, MeasuredColumns measured) {
   TitledTable result{"Averages of the configurations", {}, ""};
   result.table.header = {"configuration", "sequences", "t_rel % pooled", "r_rel pooled"};
   std::vector<std::string> keys = kAccuracy;
   keys.insert(keys.end(), {"ms_mean", "mean_iterations", "selection_rate_pct", "coarse_rate_pct"});
+  keys = wanted(keys, measured);
   add_titles(result.table, keys);
   for (const BenchSummary& summary : summaries(cells)) {
     const std::size_t all = summary.cells + summary.failed;
@@ -132,7 +143,10 @@ TitledTable by_sequence(const std::vector<BenchCell>& cells, const std::vector<B
 std::string failures(const std::vector<BenchCell>& cells) {
   std::string text;
   for (const BenchCell& cell : cells) {
-    if (cell.failed()) text += fmt::format("failed: {} × {}: {}\n", cell.sequence, cell.configuration, cell.error);
+    if (cell.failed()) {
+      text += fmt::format("failed: {} × {}: {}{}\n", cell.sequence, cell.configuration, cell.error,
+                          cell.log.empty() ? "" : " (log: " + cell.log + ")");
+    }
   }
   return text;
 }
@@ -146,8 +160,8 @@ std::string shown(const std::optional<double>& value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }
 
-std::vector<TitledTable> bench_tables(const std::vector<BenchCell>& cells) {
-  std::vector<TitledTable> tables = {accuracy(cells), effort(cells), averages(cells)};
+std::vector<TitledTable> bench_tables(const std::vector<BenchCell>& cells, MeasuredColumns measured) {
+  std::vector<TitledTable> tables = {accuracy(cells), effort(cells, measured), averages(cells, measured)};
   const std::string failed = failures(cells);
   if (!failed.empty()) tables.back().note += "\n" + failed.substr(0, failed.size() - 1);
   const std::vector<BenchSummary> columns = summaries(cells);
@@ -158,15 +172,20 @@ std::vector<TitledTable> bench_tables(const std::vector<BenchCell>& cells) {
   return tables;
 }
 
-TextTable bench_csv(const std::vector<BenchCell>& cells) {
+TextTable bench_csv(const std::vector<BenchCell>& cells, MeasuredColumns measured) {
   TextTable table;
   table.header = {"row", "sequence", "configuration", "kind"};
-  for (const BenchFigure& figure : bench_figures()) table.header.emplace_back(figure.key);
+  const auto shown_here = [&](const BenchFigure& f) { return measured == MeasuredColumns::kWith || !f.measured; };
+  for (const BenchFigure& figure : bench_figures()) {
+    if (shown_here(figure)) table.header.emplace_back(figure.key);
+  }
   table.header.insert(table.header.end(), {"frames", "status", "pose_instant", "truth_instant", "point_times",
                                            "elevation_correction_deg", "error"});
   for (const BenchCell& cell : cells) {
     std::vector<std::string> row = {"cell", cell.sequence, cell.configuration, cell.peer ? "peer" : "run"};
-    for (const BenchFigure& figure : bench_figures()) row.push_back(exact(value_of(cell, figure)));
+    for (const BenchFigure& figure : bench_figures()) {
+      if (shown_here(figure)) row.push_back(exact(value_of(cell, figure)));
+    }
     row.push_back(text_at(cell.metrics, "/frames"));
     row.push_back(statuses(cell.metrics));
     for (const char* place :
@@ -181,7 +200,9 @@ TextTable bench_csv(const std::vector<BenchCell>& cells) {
     table.rows.push_back({"pooled", "", summary.configuration, kind, exact(summary.kitti.pooled_t_rel_pct),
                           exact(summary.kitti.pooled_r_rel_deg_100m)});
     std::vector<std::string> row = {"mean", "", summary.configuration, kind};
-    for (const auto& mean : summary.means) row.push_back(exact(mean));
+    for (std::size_t i = 0; i < summary.means.size(); ++i) {
+      if (shown_here(bench_figures()[i])) row.push_back(exact(summary.means[i]));
+    }
     table.rows.push_back(row);
   }
   return table;

@@ -34,6 +34,7 @@ void add_run_command(CLI::App& app, const std::string& command_line, int& exit_c
 void add_bench_command(CLI::App& app, const std::string& command_line, int& exit_code);
 void add_eval_command(CLI::App& app, int& exit_code);
 void add_quality_command(CLI::App& app, int& exit_code);
+void add_report_command(CLI::App& app, int& exit_code);
 void add_simulate_command(CLI::App& app, int& exit_code);
 void add_config_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);

@@ -3,6 +3,7 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "rilo/config/config_error.hpp"
 #include "rilo/io/io_error.hpp"
@@ -22,6 +23,10 @@ Failure current_failure() {
     return {kUsage, error.what()};
   } catch (const std::bad_alloc&) {
     return {kUnexpected, "out of memory"};
+  } catch (const std::system_error& error) {
+    // Of threads and processes that could not be started: "Resource temporarily unavailable" alone helps nobody.
+    const bool exhausted = error.code() == std::errc::resource_unavailable_try_again;
+    return {kUnexpected, error.what() + std::string(exhausted ? ": out of memory, or of threads and processes" : "")};
   } catch (const std::exception& error) {
     return {kUnexpected, error.what()};
   }

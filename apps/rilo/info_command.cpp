@@ -26,7 +26,7 @@ struct InfoFlags {
   bool all = false;
 };
 
-constexpr std::size_t kLookedAt = 50;  // sweeps whose points are read, spread evenly over the data by skipping
+constexpr std::size_t kSweepsLookedAt = 50;  // sweeps whose points are read, spread evenly over the data by skipping
 
 struct Survey {
   std::size_t sweeps = 0;
@@ -73,7 +73,7 @@ void look_at(const Sweep& sweep, Survey& survey) {
 Survey survey_of(ScanSource& source, bool all) {
   Survey survey;
   const std::size_t total = source.size().value_or(0);
-  const std::size_t step = all || total <= kLookedAt ? 1 : total / kLookedAt;
+  const std::size_t step = all || total <= kSweepsLookedAt ? 1 : total / kSweepsLookedAt;
   while (const auto sweep = source.next()) {
     look_at(*sweep, survey);
     survey.stamps.push_back(sweep->stamp_ns);

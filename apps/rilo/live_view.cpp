@@ -42,6 +42,11 @@ void LiveView::show(std::size_t index, const SweepResult& result, Sweep sweep) {
   }
 }
 
+void LiveView::start_over() {
+  if (truth_) truth_->start_over();
+  viewer_->start_over();
+}
+
 ViewInfo view_info(const std::string& data, const OdometryConfig& config) {
   ViewInfo info;
   info.title = valid_utf8(last_name(data));

@@ -20,6 +20,9 @@ class TruthTrack {
   /// Of what lies beside the data; none when there is nothing, or it cannot be read.
   explicit TruthTrack(const std::filesystem::path& data);
 
+  /// The next estimate is the first one.
+  void start_over() { T_odom_world_.reset(); }
+
   /// Of the sweep at that place in the data, whose pose was estimated as `estimate`.
   std::optional<Eigen::Vector3d> at(std::size_t index, const SE3& estimate);
 
@@ -34,6 +37,8 @@ class LiveView {
 
   /// Hands over a sweep. A live one may lose its points, see Viewer::push.
   void show(std::size_t index, const SweepResult& result, Sweep sweep);
+  /// Forgets what was shown.
+  void start_over();
   Viewer& viewer() { return *viewer_; }
 
  private:

@@ -1,9 +1,11 @@
 // The rilo command: parses, dispatches, and turns every error into one line and an exit code.
+#include <csignal>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
 
 #include "command.hpp"
+#include "describe_command.hpp"
 #include "failure.hpp"
 #include "text.hpp"
 #include "version.hpp"
@@ -18,6 +20,7 @@ constexpr const char* kFooter = R"(Examples:
   rilo run drive --view                                     watch it in a browser while it runs
   rilo view results                                         look at it again
   rilo bench experiments/ablation.yaml --data drive         several configurations on several drives
+  rilo report results other-results                         one page that compares runs
   rilo config --dump > my.yaml                              every key with its unit and meaning
 
 Exit codes: 0 success, 1 unexpected error, 2 wrong usage or configuration, 3 data missing or malformed,
@@ -33,6 +36,7 @@ int fail(int code, const std::string& message) {
 int main(int argc, char** argv) {
   using namespace rilo;
   int exit_code = cli::kSuccess;
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error with a message, as a full disk
   CLI::App app{"Rilo: LiDAR-only odometry with a reliable initial pose", "rilo"};
   app.set_version_flag("--version", std::string("rilo ") + cli::kVersion);
   app.require_subcommand(1);
@@ -42,9 +46,11 @@ int main(int argc, char** argv) {
   cli::add_bench_command(app, cli::command_line(argc, argv), exit_code);
   cli::add_view_command(app, exit_code);
   cli::add_quality_command(app, exit_code);
+  cli::add_report_command(app, exit_code);
   cli::add_simulate_command(app, exit_code);
   cli::add_config_command(app, exit_code);
   cli::add_info_command(app, exit_code);
+  cli::add_describe_commands(app, exit_code);
   try {
     app.parse(argc, argv);
     std::cout.flush();

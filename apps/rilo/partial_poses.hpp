@@ -1,6 +1,7 @@
 // Poses on disk while the run goes on.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 
@@ -15,14 +16,20 @@ class PartialPoses {
   /// An empty `folder`: nothing is written.
   explicit PartialPoses(const std::filesystem::path& folder);
 
-  /// @throws CommandError(kCannotWrite) when the disk is full.
+  /// @throws CommandError(kCannotWrite) when the disk is full; the lines before stay.
   void add(const SE3& T_odom_lidar);
+
+  /// Forgets the poses so far. @throws CommandError(kCannotWrite)
+  void start_over();
 
   void remove();
 
  private:
+  void open();
+
   std::filesystem::path file_;
   std::ofstream stream_;
+  std::uintmax_t bytes_ = 0;  // of complete lines
 };
 
 }  // namespace rilo::cli

@@ -2,12 +2,14 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "checks.hpp"
 #include "command.hpp"
+#include "folder_lock.hpp"
 #include "interrupt.hpp"
 #include "rilo/config/config_file.hpp"
 #include "run_outputs.hpp"
@@ -79,12 +81,13 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   run.command_line = command_line;
   run.data = flags.data;
   run.config = configuration(flags);
-  const auto source = open_scan_source(flags.data, flags.source.options);
+  auto source = open_scan_source(flags.data, flags.source.options);
   prepare_outputs(flags);
+  const FolderLock lock(flags.out);
   const InterruptGuard guard;
   const auto view = open_view(flags, *source, run.config);
   PartialPoses partial(flags.out);
-  run_sweeps(flags, *source, partial, run, view.get());
+  run_sweeps(flags, std::move(source), partial, run, view.get());
   if (view) view->viewer().finish();
   if (run.results.empty() && run.signal == 0) {
     partial.remove();
@@ -111,8 +114,13 @@ void add_flags(CLI::App& command, RunFlags& flags) {
       ->check(path_given());
   command.add_option("--set", flags.settings, "key=value, repeatable; overrides the file")->allow_extra_args(false);
   command.add_option("--out", flags.out, "folder for the results (created)")->check(path_given());
-  command.add_option("--map", flags.map, "map of the whole run, .ply or .pcd, a point every 0.2 m")
+  command.add_option("--map", flags.map, "map of the whole run, .ply or .pcd, with a point in each voxel")
       ->check(path_given());
+  command.add_option("--map-voxel", flags.map_voxel_m, "edge of the map's voxels, m")
+      ->check(number_within(0.001, 100))
+      ->capture_default_str();
+  command.add_flag("--map-normals", flags.map_normals, "the map has normals, towards where the surface was seen from");
+  command.add_flag("--map-intensity", flags.map_intensity, "the map has intensities");
   command.add_option("--start", flags.start, "leave out that many sweeps")
       ->check(whole_number())
       ->capture_default_str();
@@ -123,6 +131,8 @@ void add_flags(CLI::App& command, RunFlags& flags) {
       .add_option("--threads", flags.threads,
                   "threads; 0: as many as the machine has; the results do not depend on it. Default: as configured")
       ->check(whole_number(1024));
+  command.add_flag("--one-pass", flags.one_pass,
+                   "do not start over when the sensor's elevation error has become certain: the poses of a live run");
   command.add_flag("--quiet", flags.quiet, "no progress, no warnings, no summary");
   command.add_flag("--json", flags.json, "print metrics.json instead of the summary");
   command.add_flag("--no-report", flags.no_report, "do not write report.html");

@@ -99,11 +99,12 @@ nlohmann::json budget(const RunRecord& run) {
 
 /// What the run found out about the sensor's angles; the correction given on the command line comes on top.
 nlohmann::json sensor_angles(const RunRecord& run) {
-  nlohmann::json figures = {{"elevation_offset_deg", nullptr},
-                            {"elevation_offset_sigma_deg", nullptr},
-                            {"elevation_offset_applied_deg", 0.0},
-                            {"beam_elevation_rms_deg", 0.0},
-                            {"beam_azimuth_rms_deg", 0.0}};
+  nlohmann::json figures = {{"elevation_offset_deg", nullptr},     {"elevation_offset_sigma_deg", nullptr},
+                            {"elevation_offset_applied_deg", 0.0}, {"started_over_after_sweeps", nullptr},
+                            {"beam_elevation_rms_deg", 0.0},       {"beam_azimuth_rms_deg", 0.0}};
+  if (run.started_over_after) {
+    figures["started_over_after_sweeps"] = *run.started_over_after;
+  }
   if (run.results.empty()) {
     return figures;
   }
@@ -198,6 +199,10 @@ std::string run_summary(const nlohmann::json& m) {
     text += fmt::format("elevation error {:+.3f} ± {:.3f} deg found; {:+.3f} corrected\n",
                         m["elevation_offset_deg"].get<double>(), m["elevation_offset_sigma_deg"].get<double>(),
                         m["elevation_offset_applied_deg"].get<double>());
+    if (!m["started_over_after_sweeps"].is_null()) {
+      text += fmt::format("                from the start: certain after {} sweeps, then started over\n",
+                          m["started_over_after_sweeps"].get<std::size_t>());
+    }
   }
   if (m["beam_elevation_rms_deg"].get<double>() > 0.0 || m["beam_azimuth_rms_deg"].get<double>() > 0.0) {
     text += fmt::format("single beams    corrected by {:.3f} deg in elevation, {:.3f} in azimuth (rms)\n",

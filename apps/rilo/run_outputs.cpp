@@ -20,14 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void create_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (fs::is_directory(folder)) return;
-  const std::string reason = error ? error.message() : "it is not a folder";
-  throw CommandError(kCannotWrite, folder.string() + ": cannot be created (" + reason + "); choose another --out");
-}
-
 void write_poses(const fs::path& folder, const RunRecord& run) {
   Trajectory trajectory;
   for (const SweepResult& result : run.results) trajectory.push_back({result.stamp_ns, result.T_odom_lidar});
@@ -35,6 +27,9 @@ void write_poses(const fs::path& folder, const RunRecord& run) {
   write_tum(folder / "trajectory.tum", trajectory);
   write_euroc(folder / "trajectory.csv", trajectory);
   write_mcap(folder / "trajectory.mcap", run.results);
+  if (can_write_bags()) {
+    write_bag(folder / "trajectory.bag", run.results);
+  }
   if (run.source.T_cam_lidar) {
     write_kitti_poses_camera(folder / "poses_camera.txt", trajectory, *run.source.T_cam_lidar);
   } else {
@@ -63,6 +58,14 @@ void write_folder(const RunFlags& flags, const RunRecord& run, const nlohmann::j
 }
 
 }  // namespace
+
+void create_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (fs::is_directory(folder)) return;
+  const std::string reason = error ? error.message() : "it is not a folder";
+  throw CommandError(kCannotWrite, folder.string() + ": cannot be created (" + reason + "); choose another --out");
+}
 
 void prepare_outputs(const RunFlags& flags) {
   if (!flags.map.empty() && !flags.map.ends_with(".ply") && !flags.map.ends_with(".pcd")) {

@@ -10,6 +10,9 @@
 
 namespace rilo::cli {
 
+/// With all folders above it. @throws CommandError(kCannotWrite)
+void create_folder(const std::filesystem::path& folder);
+
 /// Makes sure, before anything is computed, that --out and --map can be written; --out is created.
 /// @throws CommandError(kCannotWrite), or kUsage when --map ends in neither .ply nor .pcd.
 void prepare_outputs(const RunFlags& flags);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "rilo/cloud/map_cloud.hpp"
 #include "rilo/evaluation/evaluation.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "rilo/odometry/odometry_config.hpp"
@@ -30,12 +31,13 @@ struct RunRecord {
   std::string command_line;
   std::filesystem::path data;
   SourceInfo source;
-  OdometryConfig config;
+  OdometryConfig config;  ///< that led to `results`: with the elevation error, when the run started over
   int threads = 0;
+  std::optional<std::size_t> started_over_after;  ///< sweeps, when the sensor's elevation error had become certain
   std::vector<SweepResult> results;
   std::vector<std::size_t> indices;  ///< place of each sweep in the data
   PoseInstant pose_instant = PoseInstant::kMid;
-  std::vector<Eigen::Vector3f> map;  ///< thinned points of all registered sweeps, odometry frame
+  MapCloud map;  ///< thinned points of all registered sweeps
   double wall_s = 0;
   double peak_rss_mb = 0;          ///< up to the last sweep
   int signal = 0;                  ///< that ended the run early, 0: none

@@ -82,7 +82,7 @@ RunReport report_of(const RunRecord& run, const nlohmann::json& metrics) {
     report.truth = moved(run.truth->truth, T_odom_world);
   }
   report.evaluation = run.evaluation;
-  report.map_points = run.map;
+  report.map_points = run.map.points;
   report.sweep_period_ms = run.source.period_s * 1e3;
   report.peak_rss_mb = run.peak_rss_mb;
   return report;

@@ -149,6 +149,8 @@ void Preprocessor::crop(const SweepView& sweep) {
   cropped_.points.resize(kept);
   cropped_.offsets_s.resize(timed ? kept : 0);
   cropped_beams_.resize(beams_tracked_ ? kept : 0);
+  const bool bright = intensities_kept_ && sweep.intensities.size() == sweep.points.size();
+  cropped_.intensities.resize(bright ? kept : 0);
   for_fixed_chunks(sweep.points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
     std::size_t to = chunk_begins_[chunk];
     for (std::size_t i = first; i < last; ++i) {
@@ -162,6 +164,9 @@ void Preprocessor::crop(const SweepView& sweep) {
       }
       if (timed) {
         cropped_.offsets_s[to] = sweep.times_s[i];
+      }
+      if (bright) {
+        cropped_.intensities[to] = sweep.intensities[i];
       }
       ++to;
     }

@@ -28,6 +28,7 @@ void VoxelMean::find_keys(const TimedCloud& in, double voxel_m) {
 
 void VoxelMean::start() {
   means_.clear();
+  intensity_sums_.clear();
   if (slots_.empty() || ++generation_ == 0) {  // after 2^32 calls the old marks would come back to life
     slots_.assign(std::max(kFirstMeanSlots, slots_.size()), Slot{});
     generation_ = 1;
@@ -67,6 +68,15 @@ void VoxelMean::grow() {
   }
 }
 
+// `intensity` counts as often as the point it is of.
+void VoxelMean::add_intensity(std::uint32_t number, float intensity) {
+  if (number == intensity_sums_.size()) {
+    intensity_sums_.push_back(intensity);
+  } else {
+    intensity_sums_[number] += intensity;
+  }
+}
+
 void VoxelMean::average(const TimedCloud& in, double voxel_m, TimedCloud& out) {
   const bool timed = in.timed();
   find_keys(in, voxel_m);
@@ -83,6 +93,9 @@ void VoxelMean::average(const TimedCloud& in, double voxel_m, TimedCloud& out) {
     const Eigen::Vector3f& p = in.points[i];
     const float offset = timed ? in.offsets_s[i] : 0.0F;
     const float count = in.counts.empty() ? 1.0F : in.counts[i];
+    if (!in.intensities.empty()) {
+      add_intensity(number, count * in.intensities[i]);
+    }
     if (number == means_.size()) {
       means_.push_back({p, offset, Eigen::Vector3f::Zero(), 0.0F, count});
       continue;
@@ -99,12 +112,16 @@ void VoxelMean::write(bool timed, TimedCloud& out) const {
   out.points.resize(means_.size());
   out.counts.resize(means_.size());
   out.offsets_s.resize(timed ? means_.size() : 0);
+  out.intensities.resize(intensity_sums_.size());
   for (std::size_t n = 0; n < means_.size(); ++n) {
     const Mean& mean = means_[n];
     out.points[n] = mean.first + mean.sum / mean.count;
     out.counts[n] = mean.count;
     if (timed) {
       out.offsets_s[n] = mean.first_offset_s + mean.offset_sum_s / mean.count;
+    }
+    if (!intensity_sums_.empty()) {
+      out.intensities[n] = intensity_sums_[n] / mean.count;
     }
   }
 }

@@ -20,6 +20,8 @@ namespace fs = std::filesystem;
 using detail::kind_of;
 using detail::position_of;
 
+constexpr std::int64_t kMostSweeps = 1'000'000'000;
+constexpr std::int64_t kMostRepeats = 1000;
 constexpr const char* kPlanHint = "docs/bench.md shows how the file looks";
 
 class PlanReader {
@@ -33,8 +35,17 @@ class PlanReader {
     read_map(root, "", "",
              {{"sequences", [&](const Node& node) { plan.sequences = list<BenchSequence>(node, "sequences"); }},
               {"configurations",
-               [&](const Node& node) { plan.configurations = list<BenchConfiguration>(node, "configurations"); }}});
-    if (plan.configurations.empty()) plan.configurations.push_back({"default", {}, {}});
+               [&](const Node& node) { plan.configurations = list<BenchConfiguration>(node, "configurations"); }},
+              {"repeats", [&](const Node& node) { plan.repeats = count(node, "repeats", 1, kMostRepeats); }},
+              {"skip_missing",
+               [&](const Node& node) {
+                 plan.skip_missing = word(node, "skip_missing", {"false", "true"}) == 1;
+               }},
+              {"tables", [&](const Node& node) {
+                 constexpr PaperTables kValues[] = {PaperTables::kNone, PaperTables::kKitti, PaperTables::kM2dgr};
+                 plan.tables = kValues[word(node, "tables", {"none", "kitti", "m2dgr"})];
+               }}});
+    if (plan.configurations.empty()) plan.configurations.push_back({"default", {}, {}, {}});
     check_peer_names(root, plan);
     return plan;
   }
@@ -105,7 +116,8 @@ class PlanReader {
       return std::pair(std::string(key), [this, key, &member](const Node& n) { member = path(n, key, root_); });
     };
     const auto whole = [this](const char* key, std::size_t& member) {
-      return std::pair(std::string(key), [this, key, &member](const Node& n) { member = count(n, key); });
+      return std::pair(std::string(key),
+                       [this, key, &member](const Node& n) { member = count(n, key, 0, kMostSweeps); });
     };
     read_map(map, "a sequence", "path",
              {{"name", [&](const Node& n) { s.name = text(n, "name"); }},
@@ -123,8 +135,7 @@ class PlanReader {
                  constexpr PointTimes kValues[] = {PointTimes::kAuto, PointTimes::kAzimuth, PointTimes::kNone};
                  s.point_times = kValues[word(n, "point_times", {"auto", "azimuth", "none"})];
                }},
-              {"elevation_correction",
-               [&](const Node& n) { s.elevation_correction_deg = number(n, "elevation_correction", -10, 10, "deg"); }},
+              {"elevation_correction", [&](const Node& n) { s.elevation_correction_deg = elevation(n); }},
               {"peers", [&](const Node& n) { s.peers = peers(n); }}});
     if (s.name.empty()) s.name = name_of(s.path);
     return s;
@@ -136,6 +147,7 @@ class PlanReader {
     read_map(map, "a configuration", "name",
              {{"name", [&](const Node& n) { c.name = text(n, "name"); }},
               {"config", [&](const Node& n) { load_file(n, c); }},
+              {"elevation_correction", [&](const Node& n) { c.elevation_correction_deg = elevation(n); }},
               {"set", [&](const Node& n) { set.reset(n); }}});
     if (set.IsDefined() && !set.IsNull()) apply(set, c);
     return c;
@@ -214,11 +226,12 @@ class PlanReader {
     refuse(node, what + " is " + kind_of(node), fmt::format("a number from {} to {} {}", least, most, unit));
   }
 
-  std::size_t count(const Node& node, const std::string& what) const {
-    constexpr std::int64_t kMost = 1'000'000'000;
+  double elevation(const Node& node) const { return number(node, "elevation_correction", -10, 10, "deg"); }
+
+  std::size_t count(const Node& node, const std::string& what, std::int64_t least, std::int64_t most) const {
     const auto value = parsed<std::int64_t>(node);
-    if (value && *value >= 0 && *value <= kMost) return static_cast<std::size_t>(*value);
-    refuse(node, what + " is " + kind_of(node), fmt::format("a whole number from 0 to {}", kMost));
+    if (value && *value >= least && *value <= most) return static_cast<std::size_t>(*value);
+    refuse(node, what + " is " + kind_of(node), fmt::format("a whole number from {} to {}", least, most));
   }
 
   std::size_t word(const Node& node, const std::string& what, const std::vector<std::string>& words) const {

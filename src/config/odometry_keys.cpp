@@ -117,8 +117,10 @@ void add_map(ConfigKeys& keys, LocalMapConfig& c) {
 void add_elevation(ConfigKeys& keys, ElevationOffsetConfig& c) {
   keys.section("elevation", "Constant error of the sensor's elevation angles, found from the sweeps alone");
   keys.boolean("enabled", c.enabled, "estimate it, and correct it once it is certain");
+  keys.real("initial_deg", c.initial_deg, -10, 10, "deg",
+            "what is known beforehand: added to the elevation angles from the first sweep on");
   keys.real("significance", c.significance, 0, 1000, "",
-            "certain when so many standard deviations from zero; 1000: never, estimate only");
+            "certain when so many standard deviations from initial_deg; 1000: never, estimate only");
   keys.real("least_deg", c.least_deg, 0, 10, "deg", "smaller errors are not corrected");
   keys.real("step_deg", c.step_deg, 0.0001, 1, "deg", "the correction moves by at most this from sweep to sweep");
 }

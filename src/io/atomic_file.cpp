@@ -31,6 +31,8 @@ std::string remedy_for(int error_number) {
   }
 }
 
+fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
+
 // A link is written through: the file that it points to is replaced, the link stays.
 fs::path resolved(const fs::path& target) {
   std::error_code error;
@@ -42,7 +44,7 @@ fs::path resolved(const fs::path& target) {
     }
     return fs::canonical(target);
   }
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const fs::path folder = folder_of(target);
   if (!fs::is_directory(folder, error)) {
     throw IoError({target, "", "its folder " + folder.string() + " does not exist", "an existing folder",
                    "Create the folder or choose another output path"});
@@ -55,10 +57,20 @@ fs::path temporary_name(const fs::path& target) {
   return target.parent_path() / fmt::format(".{}.{}-{}.tmp", target.filename().string(), ::getpid(), counter++);
 }
 
+// Without a name, so that nothing is left when the program is killed. -1 where there are no such files; a name can be
+// given to them later by way of /proc only.
+int open_nameless([[maybe_unused]] const fs::path& target) {
+#ifdef O_TMPFILE
+  if (::access("/proc/self/fd", X_OK) != 0) return -1;
+  return ::open(folder_of(target).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+#else
+  return -1;
+#endif
+}
+
 // The rename itself must survive a power cut; where folders cannot be synced, nothing is lost.
 void sync_folder(const fs::path& target) {
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int descriptor = ::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
   (void)::fsync(descriptor);
   ::close(descriptor);
@@ -67,6 +79,8 @@ void sync_folder(const fs::path& target) {
 }  // namespace
 
 AtomicFile::AtomicFile(const fs::path& target) : target_(resolved(target)) {
+  descriptor_ = open_nameless(target_);
+  if (descriptor_ >= 0) return;
   do {
     temporary_ = temporary_name(target_);
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -98,10 +112,24 @@ void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) {
 void AtomicFile::commit() {
   flush();
   if (::fsync(descriptor_) != 0) fail("cannot write", errno);
+  if (temporary_.empty()) give_name();
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write", errno);
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the finished file in place", errno);
   temporary_.clear();
   sync_folder(target_);
+}
+
+// A link cannot take the place of another file, a rename can.
+void AtomicFile::give_name() {
+  const std::string file = fmt::format("/proc/self/fd/{}", descriptor_);
+  for (;;) {
+    const fs::path name = temporary_name(target_);
+    if (::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      temporary_ = name;
+      return;
+    }
+    if (errno != EEXIST) fail("cannot put the finished file in place", errno);
+  }
 }
 
 void AtomicFile::flush() {

@@ -19,21 +19,21 @@ struct TypeRow {
   std::size_t bytes;
   std::string_view name;
 };
-constexpr std::array<TypeRow, 10> kTypes{{{ScalarType::kInt8, 1, "int8"},
-                                          {ScalarType::kUint8, 1, "uint8"},
-                                          {ScalarType::kInt16, 2, "int16"},
-                                          {ScalarType::kUint16, 2, "uint16"},
-                                          {ScalarType::kInt32, 4, "int32"},
-                                          {ScalarType::kUint32, 4, "uint32"},
-                                          {ScalarType::kInt64, 8, "int64"},
-                                          {ScalarType::kUint64, 8, "uint64"},
-                                          {ScalarType::kFloat32, 4, "float32"},
-                                          {ScalarType::kFloat64, 8, "float64"}}};
+constexpr std::array<TypeRow, 10> kScalarRows{{{ScalarType::kInt8, 1, "int8"},
+                                               {ScalarType::kUint8, 1, "uint8"},
+                                               {ScalarType::kInt16, 2, "int16"},
+                                               {ScalarType::kUint16, 2, "uint16"},
+                                               {ScalarType::kInt32, 4, "int32"},
+                                               {ScalarType::kUint32, 4, "uint32"},
+                                               {ScalarType::kInt64, 8, "int64"},
+                                               {ScalarType::kUint64, 8, "uint64"},
+                                               {ScalarType::kFloat32, 4, "float32"},
+                                               {ScalarType::kFloat64, 8, "float64"}}};
 
 }  // namespace
 
-std::size_t size_of(ScalarType type) { return kTypes[static_cast<std::size_t>(type)].bytes; }
-std::string_view to_string(ScalarType type) { return kTypes[static_cast<std::size_t>(type)].name; }
+std::size_t size_of(ScalarType type) { return kScalarRows[static_cast<std::size_t>(type)].bytes; }
+std::string_view to_string(ScalarType type) { return kScalarRows[static_cast<std::size_t>(type)].name; }
 bool is_floating(ScalarType type) { return type == ScalarType::kFloat32 || type == ScalarType::kFloat64; }
 
 namespace detail {

@@ -1,12 +1,12 @@
 #include "rilo/io/map_writer.hpp"
 
 #include <bit>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "io/raw_bytes.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
@@ -26,22 +26,26 @@ bool is_ply(const std::filesystem::path& file) {
 
 }  // namespace
 
-MapWriter::MapWriter(const std::filesystem::path& file, bool with_intensity)
-    : ply_(is_ply(file)), with_intensity_(with_intensity), file_(file) {
+MapWriter::MapWriter(const std::filesystem::path& file, MapColumns columns)
+    : ply_(is_ply(file)), columns_(columns), file_(file) {
   file_.write(header());
 }
 
-void MapWriter::add(std::span<const Eigen::Vector3f> points, std::span<const float> intensities) {
-  if (intensities.size() != (with_intensity_ ? points.size() : 0)) {
-    throw std::invalid_argument("MapWriter: as many intensities as points, or none when the map has no intensity");
+void MapWriter::add(const MapCloud& part) {
+  const std::size_t count = part.points.size();
+  if (part.normals.size() != (columns_.normals ? count : 0) ||
+      part.intensities.size() != (columns_.intensity ? count : 0)) {
+    throw std::invalid_argument("MapWriter: a column that the map has is as long as the points, another one empty");
   }
-  std::string row((with_intensity_ ? 4 : 3) * sizeof(float), '\0');
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::memcpy(row.data(), points[i].data(), 3 * sizeof(float));
-    if (with_intensity_) std::memcpy(row.data() + 3 * sizeof(float), &intensities[i], sizeof(float));
-    file_.write(row);
+  std::string rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    rows.clear();
+    for (Eigen::Index k = 0; k < 3; ++k) detail::append_bytes(rows, part.points[i][k]);
+    for (Eigen::Index k = 0; columns_.normals && k < 3; ++k) detail::append_bytes(rows, part.normals[i][k]);
+    if (columns_.intensity) detail::append_bytes(rows, part.intensities[i]);
+    file_.write(rows);
   }
-  count_ += points.size();
+  count_ += count;
 }
 
 void MapWriter::finish() {
@@ -56,21 +60,27 @@ std::string MapWriter::header() const {
     const std::string padding(30 - count.size(), ' ');
     return fmt::format(
         "ply\nformat binary_little_endian 1.0\ncomment Rilo map{}\nelement vertex {}\n"
-        "property float x\nproperty float y\nproperty float z\n{}end_header\n",
-        padding, count, with_intensity_ ? "property float intensity\n" : "");
+        "property float x\nproperty float y\nproperty float z\n{}{}end_header\n",
+        padding, count, columns_.normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
+        columns_.intensity ? "property float intensity\n" : "");
   }
   const std::string padding(60 - 2 * count.size(), ' ');
-  const bool four = with_intensity_;
+  const std::size_t more = (columns_.normals ? 3 : 0) + (columns_.intensity ? 1 : 0);
+  const auto repeated = [more](const char* word) {
+    std::string text;
+    for (std::size_t i = 0; i < 3 + more; ++i) text += word;
+    return text;
+  };
   return fmt::format(
-      "# .PCD v0.7 - Point Cloud Data file format\n# Rilo map{}\nVERSION 0.7\nFIELDS x y z{}\nSIZE 4 4 4{}\n"
-      "TYPE F F F{}\nCOUNT 1 1 1{}\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
-      padding, four ? " intensity" : "", four ? " 4" : "", four ? " F" : "", four ? " 1" : "", count, count);
+      "# .PCD v0.7 - Point Cloud Data file format\n# Rilo map{}\nVERSION 0.7\nFIELDS x y z{}{}\nSIZE{}\n"
+      "TYPE{}\nCOUNT{}\nWIDTH {}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
+      padding, columns_.normals ? " normal_x normal_y normal_z" : "", columns_.intensity ? " intensity" : "",
+      repeated(" 4"), repeated(" F"), repeated(" 1"), count, count);
 }
 
-void write_map(const std::filesystem::path& file, const std::vector<Eigen::Vector3f>& points,
-               const std::vector<float>& intensities) {
-  MapWriter writer(file, !intensities.empty());
-  writer.add(points, intensities);
+void write_map(const std::filesystem::path& file, const MapCloud& map) {
+  MapWriter writer(file, {!map.normals.empty(), !map.intensities.empty()});
+  writer.add(map);
   writer.finish();
 }
 

@@ -7,12 +7,14 @@
 #include "io/bin_fields.hpp"
 #include "io/file_source.hpp"
 #include "io/packets/packet_source.hpp"
+#include "io/ros/live_recording.hpp"
 #include "io/ros/recording_source.hpp"
 #include "io/scan_listing.hpp"
 #include "io/stamp_order.hpp"
 #include "io/text.hpp"
 #include "rilo/io/elevation_correction.hpp"
 #include "rilo/io/io_error.hpp"
+#include "rilo/io/live_source.hpp"
 #include "rilo/io/prefetch_source.hpp"
 #include "rilo/io/scan_source.hpp"
 
@@ -98,14 +100,23 @@ std::unique_ptr<ScanSource> open_data(const fs::path& path, const SourceOptions&
                  "a recording, a folder of sweeps, or one sweep", "Check the path"});
 }
 
+std::unique_ptr<ScanSource> in_order_and_corrected(std::unique_ptr<ScanSource> source, const SourceOptions& options) {
+  source = detail::with_stamp_order(std::move(source));
+  if (options.elevation_correction_deg == 0) return source;
+  return with_elevation_correction(std::move(source), options.elevation_correction_deg);
+}
+
 }  // namespace
+
+std::unique_ptr<ScanSource> open_live_source(std::shared_ptr<LiveQueue> queue, const SourceOptions& options) {
+  check_options(options);
+  return in_order_and_corrected(
+      std::make_unique<detail::RecordingSource>("live", detail::open_live(std::move(queue)), options), options);
+}
 
 std::unique_ptr<ScanSource> open_scan_source(const fs::path& path, const SourceOptions& options) {
   check_options(options);
-  std::unique_ptr<ScanSource> source = detail::with_stamp_order(open_data(path, options));
-  if (options.elevation_correction_deg != 0) {
-    source = with_elevation_correction(std::move(source), options.elevation_correction_deg);
-  }
+  std::unique_ptr<ScanSource> source = in_order_and_corrected(open_data(path, options), options);
   if (options.read_ahead > 0) source = std::make_unique<PrefetchSource>(std::move(source), options.read_ahead);
   return source;
 }

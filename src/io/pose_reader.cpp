@@ -20,8 +20,10 @@ constexpr std::size_t kTumNumbers = 8;
 // Walks through the lines that say something, and says where it is.
 class Table {
  public:
-  Table(const std::filesystem::path& file, std::string remedy)
-      : bytes_(detail::read_file(file)), lines_(bytes_.view()), remedy_(std::move(remedy)) {}
+  Table(const std::filesystem::path& file, std::string remedy, bool whole_lines_only = false)
+      : bytes_(detail::read_file(file)),
+        lines_(whole_lines_only ? whole_lines(bytes_.view()) : bytes_.view()),
+        remedy_(std::move(remedy)) {}
 
   /// The next line that is neither blank nor a comment.
   std::optional<std::string_view> next() {
@@ -55,6 +57,11 @@ class Table {
   }
 
  private:
+  static std::string_view whole_lines(std::string_view text) {
+    const std::size_t end = text.rfind('\n');
+    return text.substr(0, end == std::string_view::npos ? 0 : end + 1);
+  }
+
   detail::FileBytes bytes_;
   detail::LineScanner lines_;
   std::string remedy_;
@@ -72,14 +79,18 @@ SE3 to_pose(const Table& table, const std::array<double, kPoseNumbers>& values) 
   return pose;
 }
 
-}  // namespace
-
-std::vector<SE3> read_kitti_poses(const std::filesystem::path& file) {
-  Table table(file, "Give a file of poses in KITTI form, one pose of 12 numbers a line");
+std::vector<SE3> kitti_poses(const std::filesystem::path& file, bool whole_lines_only) {
+  Table table(file, "Give a file of poses in KITTI form, one pose of 12 numbers a line", whole_lines_only);
   std::vector<SE3> poses;
   while (const auto line = table.next()) poses.push_back(to_pose(table, table.numbers<kPoseNumbers>(*line)));
   return poses;
 }
+
+}  // namespace
+
+std::vector<SE3> read_kitti_poses(const std::filesystem::path& file) { return kitti_poses(file, false); }
+
+std::vector<SE3> read_growing_kitti_poses(const std::filesystem::path& file) { return kitti_poses(file, true); }
 
 Trajectory read_tum(const std::filesystem::path& file) {
   Table table(file, "Give a file of poses in TUM form, t x y z qx qy qz qw a line");

@@ -58,6 +58,7 @@ class Odometry::Impl {
       throw std::invalid_argument("configuration: budget.sweep_ms is set, but the odometry was given no clock");
     }
     preprocessor_.track_beams(config.beams.enabled);
+    preprocessor_.set_elevation_offset(elevation_.applied_rad());
   }
 
   SweepResult register_sweep(const SweepView& sweep) {
@@ -71,6 +72,8 @@ class Odometry::Impl {
   const Trajectory& trajectory() const { return trajectory_; }
   const LocalMap& map() const { return map_; }
   const std::vector<Eigen::Vector3f>& map_points() const { return map_points_; }
+  const std::vector<float>& map_intensities() const { return map_intensities_; }
+  void keep_intensities(bool kept) { preprocessor_.keep_intensities(kept); }
 
  private:
   SweepResult process(const SweepView& sweep);
@@ -111,6 +114,7 @@ class Odometry::Impl {
   int coarse_starts_ = 0;                                // of the sweep in work
   TimedCloud first_cloud_;
   std::vector<Eigen::Vector3f> map_points_;
+  std::vector<float> map_intensities_;
 };
 
 SweepResult Odometry::Impl::process(const SweepView& sweep) {
@@ -316,6 +320,7 @@ void Odometry::Impl::lose(const PreparedSweep& prepared, const MotionState& pred
 
 void Odometry::Impl::insert(const TimedCloud& cloud) {
   deskew(cloud, state_.twist, map_points_);
+  map_intensities_ = cloud.intensities;
   map_.insert(map_points_, state_.T_odom_lidar, elevation_lever_);
   map_.evict(state_.T_odom_lidar.translation());
 }
@@ -330,10 +335,11 @@ std::int64_t Odometry::Impl::usable_stamp(std::int64_t stamp_ns) const {
 }
 
 void Odometry::Impl::reset() {
-  preprocessor_.reset();
   initial_pose_.reset();
   threshold_.reset();
   elevation_.reset();
+  preprocessor_.reset();
+  preprocessor_.set_elevation_offset(elevation_.applied_rad());
   beams_.reset();
   budget_.reset();
   pose_covariance_.reset();
@@ -350,6 +356,7 @@ void Odometry::Impl::reset() {
   lost_on_this_map_ = 0;
   first_cloud_ = TimedCloud{};
   map_points_.clear();
+  map_intensities_.clear();
 }
 
 Odometry::Odometry(const OdometryConfig& config, Clock clock)
@@ -365,6 +372,10 @@ const Trajectory& Odometry::trajectory() const { return impl_->trajectory(); }
 std::vector<Eigen::Vector3f> Odometry::local_map() const { return impl_->map().points(); }
 
 const std::vector<Eigen::Vector3f>& Odometry::last_map_points() const { return impl_->map_points(); }
+
+void Odometry::keep_intensities(bool kept) { impl_->keep_intensities(kept); }
+
+const std::vector<float>& Odometry::last_map_intensities() const { return impl_->map_intensities(); }
 
 void Odometry::reset() { impl_->reset(); }
 

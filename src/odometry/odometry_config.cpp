@@ -65,6 +65,7 @@ void validate(const OdometryConfig& c) {
       {"icp.rematch_m", c.icp.rematch_m, 0, 10},
       {"icp.noise_m", c.icp.noise_m, 1e-4, 10},
       {"icp.independent_share", c.icp.independent_share, 1e-6, 1},
+      {"elevation.initial_deg", c.elevation.initial_deg, -10, 10},
       {"elevation.significance", c.elevation.significance, 0, 1e6},
       {"elevation.least_deg", c.elevation.least_deg, 0, 90},
       {"elevation.step_deg", c.elevation.step_deg, 0, 90},

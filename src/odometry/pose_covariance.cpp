@@ -12,7 +12,7 @@ constexpr double kEvidenceWorth = 8.0;
 // A velocity that changes steadily by a within the sweep moves its points by a t² / 2 against the middle: a T² / 24 on
 // average over the sweep.
 constexpr double kMeanLag = 1.0 / 24.0;
-constexpr double kLearningRate = 0.2;
+constexpr double kChangeLearningRate = 0.2;
 }  // namespace
 
 Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6d& before, double sweep_s) {
@@ -29,7 +29,7 @@ Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6
   to_body.bottomRightCorner<3, 3>() = R.transpose();
   Matrix6d result = to_body * covariance.topLeftCorner<6, 6>() * to_body.transpose();
 
-  squared_change_ += kLearningRate * ((icp.state.twist - before).cwiseAbs2() - squared_change_);
+  squared_change_ += kChangeLearningRate * ((icp.state.twist - before).cwiseAbs2() - squared_change_);
   result.diagonal() += kMeanLag * kMeanLag * sweep_s * sweep_s * squared_change_;
   return result;
 }

@@ -22,6 +22,18 @@ std::string_view to_string(OdometryStatus status) {
   return "unknown";
 }
 
+bool belongs_in_map(OdometryStatus status, bool timed) {
+  switch (status) {
+    case OdometryStatus::kLost:
+    case OdometryStatus::kEmpty:
+      return false;
+    case OdometryStatus::kInitialising:
+      return !timed;
+    default:
+      return true;
+  }
+}
+
 std::string_view to_string(InitialPoseSource source) {
   switch (source) {
     case InitialPoseSource::kIdentity:

@@ -105,6 +105,9 @@ ElevationInformation elevation_information(const TimedCloud& source, const Local
           {t, last.rotation - solved.head<3>(), last.at(t) - solved.segment<3>(3)}};
 }
 
+ElevationOffsetEstimator::ElevationOffsetEstimator(const ElevationOffsetConfig& config)
+    : config_(config), applied_rad_(config.enabled ? config.initial_deg * kRadPerDeg : 0.0) {}
+
 void ElevationOffsetEstimator::add(const ElevationInformation& sweep) {
   if (!(sweep.information > 0.0)) {
     return;
@@ -135,7 +138,7 @@ void ElevationOffsetEstimator::add(const ElevationInformation& sweep) {
 }
 
 double ElevationOffsetEstimator::offset_rad() const {
-  return information_ > 0.0 ? weighted_offset_ / information_ : 0.0;
+  return information_ > 0.0 ? weighted_offset_ / information_ : applied_rad_;
 }
 
 double ElevationOffsetEstimator::sigma_rad() const {
@@ -155,7 +158,8 @@ double ElevationOffsetEstimator::sigma_rad() const {
 double ElevationOffsetEstimator::advance() {
   const double sigma = sigma_rad();
   const double estimate = offset_rad();
-  if (std::abs(estimate) > config_.significance * sigma && std::abs(estimate) > config_.least_deg * kRadPerDeg) {
+  const double error = std::abs(estimate - config_.initial_deg * kRadPerDeg);
+  if (error > config_.significance * sigma && error > config_.least_deg * kRadPerDeg) {
     certain_ = true;
   }
   if (!config_.enabled || !certain_) {

@@ -1,11 +1,11 @@
 #include "chart_data.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "birds_eye.hpp"
+#include "embedded_json.hpp"
 #include "figures.hpp"
 
 namespace rilo {
@@ -13,9 +13,6 @@ namespace rilo {
 namespace {
 
 using Json = nlohmann::json;
-
-/// Four decimals; JSON has no NaN, so null stands for it.
-Json rounded(double value) { return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4) : Json(nullptr); }
 
 template <typename Row, typename Value>
 Json column(const std::vector<Row>& rows, Value value) {
@@ -104,13 +101,7 @@ std::string chart_data(const RunReport& run) {
   data["errors"] = run.evaluation ? errors(run.evaluation->series) : Json(nullptr);
   data["sweeps"] = run.sweeps.empty() ? Json(nullptr) : sweeps_of(run);
   data["map"] = map_of(run);
-  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string safe;  // "</script>" and "<!--" must not appear inside the element
-  safe.reserve(text.size());
-  for (const char c : text) {
-    safe += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  }
-  return safe;
+  return embedded_json(data);
 }
 
 }  // namespace rilo

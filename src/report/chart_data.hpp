@@ -7,7 +7,7 @@
 
 namespace rilo {
 
-/// JSON that can stand inside a <script> element: columns of numbers, rounded to what a picture can show.
+/// A <script> element with JSON: columns of numbers, rounded to what a picture can show.
 std::string chart_data(const RunReport& run);
 
 }  // namespace rilo

@@ -4,8 +4,13 @@
 #include <stdexcept>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "assets.hpp"
+#include "comparison_section.hpp"
+#include "experiment_section.hpp"
 #include "html_sections.hpp"
+#include "html_text.hpp"
 
 namespace rilo {
 
@@ -28,31 +33,72 @@ void check(const RunReport& run) {
   check_poses(run.truth, "truth");
 }
 
-}  // namespace
-
-void write_html_report(const RunReport& run, std::ostream& out) { write_html_report(std::vector<RunReport>{run}, out); }
-
-void write_html_report(const std::vector<RunReport>& runs, std::ostream& out) {
-  if (runs.empty()) {
-    throw std::invalid_argument("a report needs at least one run");
+/// Escaped.
+std::string page_title(const ReportPage& page) {
+  if (!page.title.empty()) {
+    return escaped(page.title);
   }
-  for (const RunReport& run : runs) {
-    check(run);
+  if (page.runs.size() > 1) {
+    return fmt::format("{} runs compared", page.runs.size());
   }
-  const std::string title = runs.size() == 1 ? title_of(runs.front()) : std::to_string(runs.size()) + " runs compared";
+  if (page.runs.empty()) {
+    return page.experiments.size() > 1 ? "Experiments" : "Experiment";
+  }
+  return title_of(page.runs.front());
+}
+
+std::string head(const std::string& title) {
   // The policy forbids the page any request: what it shows is in the file.
-  out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<meta name=\"color-scheme\" content=\"light dark\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
          "script-src 'unsafe-inline'; img-src data:\">\n"
-      << "<title>" << title << " · Rilo</title>\n<style>\n"
-      << kReportCss << "</style>\n</head>\n<body>\n<main>\n<p class=\"brand\">Rilo · LiDAR odometry report</p>\n";
-  if (runs.size() > 1) {
-    out << comparison_section(runs);
+         "<title>" +
+         title + " · Rilo</title>\n<style>\n" + kReportCss + "</style>\n</head>\n<body>\n<main>\n";
+}
+
+std::string page_header(const ReportPage& page, const std::string& title) {
+  std::string html = "<header class=\"page\"><h1>" + title + "</h1>\n";
+  for (const std::string& notice : page.notices) {
+    html += "<p class=\"notice\">" + escaped(notice) + "</p>\n";
   }
-  for (const RunReport& run : runs) {
-    out << run_section(run);
+  return html + "</header>\n";
+}
+
+}  // namespace
+
+void write_html_report(const RunReport& run, std::ostream& out) {
+  write_html_report(ReportPage{"", {}, {run}, {}}, out);
+}
+
+void write_html_report(const std::vector<RunReport>& runs, std::ostream& out) {
+  write_html_report(ReportPage{"", {}, runs, {}}, out);
+}
+
+void write_html_report(const ReportPage& page, std::ostream& out) {
+  if (page.runs.empty() && page.experiments.empty()) {
+    throw std::invalid_argument("a report needs at least one run or experiment");
+  }
+  for (const RunReport& run : page.runs) {
+    check(run);
+  }
+  const std::string title = page_title(page);
+  const bool single = page.runs.size() == 1 && page.experiments.empty();
+  out << head(title) << "<p class=\"brand\">Rilo · LiDAR odometry report</p>\n";
+  if (!single || !page.notices.empty() || !page.title.empty()) {
+    out << page_header(page, title);
+  }
+  if (page.runs.size() > 1) {
+    out << comparison_sections(page.runs);
+  } else if (!page.runs.empty()) {
+    out << run_section(page.runs.front());
+  }
+  for (const ExperimentReport& experiment : page.experiments) {
+    out << experiment_section(experiment);
+  }
+  if (page.runs.size() > 1) {
+    out << folded_runs(page.runs);
   }
   out << "<noscript><p>The charts need JavaScript; figures and tables do not.</p></noscript>\n</main>\n<script>\n"
       << kReportJs << "</script>\n</body>\n</html>\n";

@@ -12,14 +12,6 @@ namespace rilo {
 
 namespace {
 
-/// A box of the page: heading, a line that says what is seen, and a chart that the script draws.
-std::string chart_panel(const char* chart, const char* size, const char* heading, const char* caption) {
-  return fmt::format(
-      "<section class=\"panel {1}\"><h3>{2}</h3><p class=\"caption\">{3}</p>"
-      "<div class=\"chart\" data-chart=\"{0}\"></div></section>\n",
-      chart, size, heading, caption);
-}
-
 std::string cards(const RunReport& run) {
   std::string html = "<div class=\"cards\">\n";
   for (const Figure& figure : headline_figures(run)) {
@@ -68,7 +60,8 @@ std::string error_row(const char* name, const char* unit, const ErrorSummary& s,
 std::string accuracy_panel(const Evaluation& e) {
   std::string html =
       "<section class=\"panel half\"><h3>Accuracy</h3><p class=\"caption\">Aligned: rigid motion without scale. "
-      "Unaligned: first poses made equal.</p><div class=\"scroll\"><table class=\"numbers\"><thead><tr><th></th>"
+      "Unaligned: first poses made equal.</p><div class=\"scroll\" tabindex=\"0\"><table "
+      "class=\"numbers\"><thead><tr><th></th>"
       "<th>rmse</th><th>mean</th><th>median</th><th>max</th></tr></thead><tbody>\n";
   html += error_row("APE aligned", "m", e.ape.translation_m, 3);
   html += error_row("APE aligned", "°", e.ape.rotation_deg, 3);
@@ -93,7 +86,8 @@ std::string segment_panel(const KittiError& kitti) {
     return html + "<p>The path is too short for any segment.</p></section>\n";
   }
   html +=
-      "<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th>length <span class=\"unit\">m</span></th>"
+      "<div class=\"scroll\" tabindex=\"0\"><table class=\"numbers\"><thead><tr><th>length <span "
+      "class=\"unit\">m</span></th>"
       "<th>segments</th><th>t_rel <span class=\"unit\">%</span></th><th class=\"bar\"></th>"
       "<th>r_rel <span class=\"unit\">°/100 m</span></th></tr></thead><tbody>\n";
   double largest = 1e-12;
@@ -107,20 +101,6 @@ std::string segment_panel(const KittiError& kitti) {
         100.0 * row.t_rel_pct / largest, number(row.r_rel_deg_100m, 3));
   }
   return html + "</tbody></table></div></section>\n";
-}
-
-std::string facts_panel(const RunReport& run) {
-  if (run.facts.empty()) {
-    return "";
-  }
-  std::string html =
-      "<section class=\"panel full\"><h3>How this was made</h3><p class=\"caption\">Everything needed to repeat the "
-      "run."
-      "</p><table class=\"facts\"><tbody>\n";
-  for (const auto& [key, value] : run.facts) {
-    html += fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", escaped(key), escaped(value));
-  }
-  return html + "</tbody></table></section>\n";
 }
 
 std::string trajectory_panels(const RunReport& run) {
@@ -154,6 +134,26 @@ std::string sweep_panels(const RunReport& run) {
 
 }  // namespace
 
+std::string chart_panel(const char* chart, const char* size, const char* heading, const char* caption) {
+  return fmt::format(
+      "<section class=\"panel {1}\"><h3>{2}</h3><p class=\"caption\">{3}</p>"
+      "<div class=\"chart\" data-chart=\"{0}\"></div></section>\n",
+      chart, size, heading, caption);
+}
+
+std::string facts_panel(const std::vector<std::pair<std::string, std::string>>& facts) {
+  if (facts.empty()) {
+    return "";
+  }
+  std::string html =
+      "<section class=\"panel full\"><h3>How this was made</h3><p class=\"caption\">Everything needed to repeat it."
+      "</p><table class=\"facts\"><tbody>\n";
+  for (const auto& [key, value] : facts) {
+    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(key), escaped(value));
+  }
+  return html + "</tbody></table></section>\n";
+}
+
 std::string title_of(const RunReport& run) { return run.title.empty() ? "LiDAR odometry run" : escaped(run.title); }
 
 std::string run_section(const RunReport& run) {
@@ -166,39 +166,8 @@ std::string run_section(const RunReport& run) {
     html += accuracy_panel(*run.evaluation) + segment_panel(run.evaluation->kitti);
   }
   html += run.sweeps.empty() ? "" : sweep_panels(run);
-  html += facts_panel(run) + "</div>\n";
-  return html + "<script type=\"application/json\">" + chart_data(run) + "</script>\n</article>\n";
-}
-
-std::string comparison_section(const std::vector<RunReport>& runs) {
-  std::vector<std::string> labels;
-  std::string rows;
-  for (const RunReport& run : runs) {
-    for (const Figure& figure : headline_figures(run)) {
-      const std::string label = escaped(figure.label) + " <span class=\"unit\">" + escaped(figure.unit) + "</span>";
-      if (std::find(labels.begin(), labels.end(), label) == labels.end()) {
-        labels.push_back(label);
-      }
-    }
-  }
-  for (const RunReport& run : runs) {
-    const std::vector<Figure> figures = headline_figures(run);
-    rows += "<tr><th>" + title_of(run) + "</th>";
-    for (const std::string& label : labels) {
-      const auto found = std::find_if(figures.begin(), figures.end(), [&label](const Figure& f) {
-        return label.compare(0, f.label.size() + 1, escaped(f.label) + " ") == 0;
-      });
-      rows += "<td>" + (found == figures.end() ? "–" : escaped(found->value)) + "</td>";
-    }
-    rows += "</tr>\n";
-  }
-  std::string html =
-      "<article><div class=\"grid\"><section class=\"panel full\"><h3>Runs compared</h3>"
-      "<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th></th>";
-  for (const std::string& label : labels) {
-    html += "<th>" + label + "</th>";
-  }
-  return html + "</tr></thead><tbody>\n" + rows + "</tbody></table></div></section></div></article>\n";
+  html += facts_panel(run.facts) + "</div>\n";
+  return html + chart_data(run) + "</article>\n";
 }
 
 }  // namespace rilo

@@ -27,6 +27,13 @@ void Hub::wake() {
   }
 }
 
+void Hub::start_over() {
+  history = ViewHistory(info, options);
+  for (const auto& socket : sockets) {
+    if (const auto alive = socket.lock()) alive->close();
+  }
+}
+
 PageSocket::PageSocket(beast::tcp_stream stream, Hub& hub) : socket_(std::move(stream)), hub_(hub) { ++hub_.clients; }
 
 PageSocket::~PageSocket() { --hub_.clients; }

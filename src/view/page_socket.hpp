@@ -20,11 +20,17 @@ class PageSocket;
 
 /// What all connections share. Used by the server's thread, but for the counters.
 struct Hub {
-  Hub(const ViewInfo& info, const ViewOptions& options, bool loopback) : access(loopback), history(info, options) {}
+  Hub(const ViewInfo& what, const ViewOptions& how, bool loopback)
+      : info(what), options(how), access(loopback), history(what, how) {}
 
   /// Something new is there to be sent.
   void wake();
 
+  /// Forgets the history and ends all connections: pages come again by themselves and are told everything anew.
+  void start_over();
+
+  ViewInfo info;
+  ViewOptions options;
   Access access;
   ViewHistory history;
   std::vector<std::weak_ptr<PageSocket>> sockets;

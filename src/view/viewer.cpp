@@ -91,6 +91,10 @@ class Viewer::Impl {
     });
   }
 
+  void start_over() {
+    asio::post(io_, [this] { hub_.start_over(); });
+  }
+
   void finish() {
     asio::post(io_, [this] {
       hub_.history.finish();
@@ -148,6 +152,8 @@ void Viewer::push_all(ViewSweep sweep) { impl_->push(std::move(sweep), true); }
 void Viewer::add_map(std::span<const Eigen::Vector3f> points, std::span<const std::uint32_t> sweeps) {
   impl_->add_map({points.begin(), points.end()}, {sweeps.begin(), sweeps.end()});
 }
+
+void Viewer::start_over() { impl_->start_over(); }
 
 void Viewer::finish() { impl_->finish(); }
 

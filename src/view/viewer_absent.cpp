@@ -16,6 +16,7 @@ std::string Viewer::url() const { return {}; }
 void Viewer::push(ViewSweep /*sweep*/) {}
 void Viewer::push_all(ViewSweep /*sweep*/) {}
 void Viewer::add_map(std::span<const Eigen::Vector3f> /*points*/, std::span<const std::uint32_t> /*sweeps*/) {}
+void Viewer::start_over() {}
 void Viewer::finish() {}
 std::size_t Viewer::clients() const { return 0; }
 std::size_t Viewer::dropped() const { return 0; }

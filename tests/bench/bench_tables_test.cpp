@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "bench_baseline.hpp"
-#include "bench_process.hpp"
+#include "bench_cell_file.hpp"
 #include "io/io_test_util.hpp"
 #include "rilo/io/io_error.hpp"
 

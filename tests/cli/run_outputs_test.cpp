@@ -1,4 +1,5 @@
 // What a run leaves behind.
+#include <algorithm>
 #include <cmath>
 #include <regex>
 
@@ -54,6 +55,7 @@ void expect_metrics(const json& metrics) {
   EXPECT_TRUE(metrics.contains("elevation_offset_deg"));
   EXPECT_TRUE(metrics.contains("elevation_offset_sigma_deg"));
   EXPECT_EQ(metrics["elevation_offset_applied_deg"], 0.0);
+  EXPECT_TRUE(metrics.at("started_over_after_sweeps").is_null());
   EXPECT_EQ(metrics["motion_compensation"], true);
   EXPECT_EQ(metrics["warnings"], json::array());
   std::size_t sweeps = 0;
@@ -128,7 +130,8 @@ TEST(RunOutputs, AllFilesArePresentAndParse) {
   expect_csv(slurp(out / "sweeps.csv"));
   expect_self_contained(slurp(out / "report.html"));
   EXPECT_TRUE(std::filesystem::exists(out / "config.yaml"));
-  EXPECT_EQ(files_in(out), 9U) << "nothing temporary is left";
+  const std::size_t bags = std::filesystem::exists(out / "trajectory.bag") ? 1 : 0;  // where ROS' library is
+  EXPECT_EQ(files_in(out), 9U + bags) << "nothing temporary is left";
 }
 
 TEST(RunOutputs, ConfigurationThatWasUsedGivesTheSamePoses) {
@@ -179,6 +182,37 @@ TEST(RunOutputs, MapsAreReadable) {
   EXPECT_GT(ply.points.size(), 1000U);
   EXPECT_EQ(ply.points, pcd.points);
   for (const Eigen::Vector3f& point : ply.points) ASSERT_TRUE(point.allFinite() && point.norm() < 250.0F);
+}
+
+TEST(RunOutputs, MapsHaveTheColumnsAskedFor) {
+  const TempDir folder;
+  const std::vector<std::string> run = {"run", shared_drive(), "--count", "4", "--quiet", "--map"};
+  const auto with = [&](const std::string& file, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = run;
+    arguments.push_back(folder / file);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  rilo_succeeds(with("fine.ply", {}));
+  rilo_succeeds(with("coarse.ply", {"--map-voxel", "1", "--map-normals", "--map-intensity"}));
+  const RawCloud fine = read_ply(folder / "fine.ply");
+  const RawCloud coarse = read_ply(folder / "coarse.ply");
+  EXPECT_TRUE(fine.intensities.empty());
+  EXPECT_LT(2 * coarse.points.size(), fine.points.size());
+  ASSERT_EQ(coarse.intensities.size(), coarse.points.size());
+  EXPECT_NE(*std::max_element(coarse.intensities.begin(), coarse.intensities.end()), 0.0F);
+  EXPECT_NE(slurp(folder / "coarse.ply").find("property float nz"), std::string::npos);
+  rilo_fails(2, with("none.ply", {"--map-voxel", "0"}), {"--map-voxel"});
+}
+
+TEST(RunOutputs, AMapOfIntensitiesNeedsSome) {
+  const TempDir folder;
+  std::filesystem::create_directory(folder / "plain");
+  replace(folder / "plain" / "0.ply",
+          "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+          "end_header\n1 2 3\n");
+  rilo_fails(3, {"run", folder / "plain", "--map", folder / "map.ply", "--map-intensity", "--quiet"},
+             {"0.ply", "no intensities", "--map-intensity"});
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 
 TEST(Usage, HelpTeachesWithExamples) {
   EXPECT_NE(rilo_succeeds({"--help"}).out.find("Exit codes"), std::string::npos);
-  for (const std::string command : {"run", "eval", "bench", "quality", "simulate", "config", "info"}) {
+  for (const std::string command : {"run", "eval", "bench", "quality", "report", "simulate", "config", "info"}) {
     const Outcome help = rilo_succeeds({command, "--help"});
     EXPECT_NE(help.out.find("Example"), std::string::npos) << command;
     EXPECT_NE(help.out.find("rilo " + command), std::string::npos) << command;
@@ -43,6 +43,9 @@ TEST(Usage, WrongCommandLinesEndWith2AndOneLine) {
       {"quality", "a", "b", "--max-range", "nan"},
       {"quality", "a", "b", "--window", "-1"},
       {"quality", "a", "b", "--associate", "name"},
+      {"report"},
+      {"report", "a", "--pose-frame", "body"},
+      {"report", "a", "--max-gap-s", "-1"},
       {"bench"},
       {"bench", "plan", "--count", "-1"},
       {"bench", "plan", "--threads", "many"},
@@ -52,6 +55,9 @@ TEST(Usage, WrongCommandLinesEndWith2AndOneLine) {
       {"config"},
       {"config", "--dump", "--check", "x"},
       {"info"},
+      {"completion"},
+      {"completion", "tcsh"},
+      {"man", "page"},
   };
   for (const auto& arguments : wrong) {
     const Outcome outcome = rilo_fails(2, arguments, {"--"});

@@ -136,6 +136,25 @@ TEST(BenchPlan, shipped_experiments_load) {
   EXPECT_EQ(load_bench_plan(folder / "sensitivity.yaml").configurations.size(), 13U);
 }
 
+TEST(BenchPlan, shipped_paper_experiments_load) {
+  const std::filesystem::path folder = std::filesystem::path(RILO_SOURCE_DIR) / "experiments" / "paper";
+  const BenchPlan table_1 = load_bench_plan(folder / "table1.yaml", "kitti");
+  EXPECT_EQ(table_1.sequences.size(), 11U);
+  EXPECT_EQ(table_1.sequences.at(10).path, "kitti/sequences/10");
+  EXPECT_EQ(table_1.tables, PaperTables::kKitti);
+  EXPECT_TRUE(table_1.skip_missing);
+  ASSERT_EQ(table_1.configurations.size(), 3U);
+  EXPECT_EQ(table_1.configurations[1].elevation_correction_deg, 0.205);
+  EXPECT_FALSE(table_1.configurations[1].config.elevation.enabled);
+  EXPECT_TRUE(table_1.configurations[2].config.elevation.enabled);
+  EXPECT_EQ(load_bench_plan(folder / "table2.yaml").repeats, 3U);
+  const BenchPlan table_3 = load_bench_plan(folder / "table3.yaml", "m2dgr");
+  EXPECT_EQ(table_3.tables, PaperTables::kM2dgr);
+  EXPECT_EQ(table_3.sequences.at(0).ground_truth, "m2dgr/hall_01.txt");
+  EXPECT_EQ(load_bench_plan(folder / "ablation.yaml").configurations.size(), 4U);
+  EXPECT_EQ(load_bench_plan(folder / "sensitivity.yaml").configurations.size(), 13U);
+}
+
 void read_or_refuse(const std::string& yaml) {
   try {
     plan_of(yaml);

@@ -71,5 +71,42 @@ TEST(ThinnedMapTest, KeepsOnePointAVoxelInTheOdometryFrame) {
   EXPECT_EQ(map.points().size(), 2U);
 }
 
+TEST(ThinnedMapTest, IntensitiesAndNormalsTowardsTheSensor) {
+  // A floor two metres below and a wall four metres ahead, both seen from the origin.
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 20; ++k) {
+      const float u = 0.2F * static_cast<float>(i) + 0.1F;
+      const float v = 0.2F * static_cast<float>(k) + 0.1F;
+      points.emplace_back(u, v, -2.05F);
+      points.emplace_back(8.05F, v, u);
+    }
+  }
+  std::vector<float> intensities(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) intensities[i] = static_cast<float>(i % 2);
+  points.emplace_back(50.0F, 50.0F, 50.0F);  // nothing near it
+  intensities.push_back(9.0F);
+  ThinnedMap map(0.2);
+  map.add(points, SE3::Identity(), intensities);
+  EXPECT_TRUE(map.cloud(false).normals.empty());
+  const MapCloud cloud = map.cloud(true);
+  ASSERT_EQ(cloud.points.size(), points.size());
+  EXPECT_EQ(cloud.intensities, intensities);
+  ASSERT_EQ(cloud.normals.size(), points.size());
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Eigen::Vector3f expected = i % 2 == 0 ? Eigen::Vector3f(0, 0, 1) : Eigen::Vector3f(-1, 0, 0);
+    EXPECT_TRUE(cloud.normals[i].isApprox(expected, 1e-3F)) << i << ": " << cloud.normals[i].transpose();
+  }
+  EXPECT_EQ(cloud.normals.back(), Eigen::Vector3f::Zero());
+}
+
+TEST(ThinnedMapTest, ALineHasNoNormals) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 30; ++i) points.emplace_back(static_cast<float>(i), 0.05F, 0.05F);
+  ThinnedMap map(0.5);
+  map.add(points, SE3::Identity());
+  for (const Eigen::Vector3f& normal : map.cloud(true).normals) EXPECT_EQ(normal, Eigen::Vector3f::Zero());
+}
+
 }  // namespace
 }  // namespace rilo

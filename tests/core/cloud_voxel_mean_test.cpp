@@ -27,6 +27,20 @@ TEST(VoxelMean, MeansOfPointsOffsetsAndCounts) {
   EXPECT_EQ(out.counts[1], 1.0F);
 }
 
+TEST(VoxelMean, IntensitiesCountAsOftenAsTheirPoints) {
+  TimedCloud in;
+  in.points = {{0.2F, 0.2F, 0.2F}, {5.5F, 0.5F, 0.5F}, {0.4F, 0.6F, 0.8F}};
+  in.counts = {1.0F, 1.0F, 3.0F};
+  in.intensities = {10.0F, 7.0F, 30.0F};
+  VoxelMean mean;
+  TimedCloud out;
+  mean.average(in, 1.0, out);
+  EXPECT_EQ(out.intensities, (std::vector<float>{25.0F, 7.0F}));
+  in.intensities.clear();
+  mean.average(in, 1.0, out);
+  EXPECT_TRUE(out.intensities.empty());
+}
+
 TEST(VoxelMean, TheTwoEndsOfASweepAreNotMixed) {
   TimedCloud in;
   in.points = {{0.2F, 0.2F, 0.2F}, {0.4F, 0.4F, 0.4F}};

@@ -152,6 +152,41 @@ TEST(Elevation, TheEstimatorFindsWhatASteadyResponsePointsAt) {
   EXPECT_EQ(estimator.applied_rad(), 0.0);
 }
 
+// Sweeps whose residuals point at `truth`.
+void see(ElevationOffsetEstimator& estimator, double truth_rad, int sweeps) {
+  for (int i = 0; i < sweeps; ++i) {
+    ElevationInformation sweep;
+    sweep.information = 1e9;
+    sweep.lever_m = 5.0;
+    sweep.gradient = 0.65 * sweep.information * (truth_rad - estimator.applied_rad());
+    estimator.add(sweep);
+    estimator.advance();
+  }
+}
+
+TEST(Elevation, WhatIsKnownBeforehandIsAppliedAtOnceAndLeftAloneWhenItFits) {
+  ElevationOffsetConfig config;
+  config.initial_deg = 0.2;
+  ElevationOffsetEstimator estimator(config);
+  EXPECT_DOUBLE_EQ(estimator.applied_rad(), 0.2 * kDegree);
+  EXPECT_DOUBLE_EQ(estimator.offset_rad(), 0.2 * kDegree);
+  see(estimator, 0.21 * kDegree, 60);
+  EXPECT_DOUBLE_EQ(estimator.applied_rad(), 0.2 * kDegree) << "within least_deg";
+  EXPECT_NEAR(estimator.offset_rad(), 0.21 * kDegree, 1e-3 * kDegree);
+  estimator.reset();
+  EXPECT_DOUBLE_EQ(estimator.applied_rad(), 0.2 * kDegree);
+}
+
+TEST(Elevation, WhatIsKnownBeforehandIsCorrectedWhenItIsWrong) {
+  ElevationOffsetConfig config;
+  config.initial_deg = 0.3;
+  ElevationOffsetEstimator estimator(config);
+  see(estimator, 0.0, 60);
+  EXPECT_NEAR(estimator.applied_rad(), 0.0, 1e-3 * kDegree);
+  config.enabled = false;
+  EXPECT_EQ(ElevationOffsetEstimator(config).applied_rad(), 0.0);
+}
+
 SweepResult last_of(double bias_deg, const OdometryConfig& config, double* error_deg = nullptr) {
   DriveConfig drive;
   drive.elevation_bias_deg = bias_deg;

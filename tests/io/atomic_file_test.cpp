@@ -1,11 +1,13 @@
 #include "rilo/io/atomic_file.hpp"
 
 #include <csignal>
+#include <fcntl.h>
 #include <stdexcept>
 #include <string>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "io/io_test_util.hpp"
 
@@ -99,6 +101,24 @@ TEST(AtomicFileTest, ReadOnlyFolder) {
   fs::permissions(folder.path(), static_cast<fs::perms>(0500));
   expect_io_error([&] { write_atomically(folder / "a", "x"); }, {"Permission denied", "that you may write to"});
   fs::permissions(folder.path(), static_cast<fs::perms>(0700));
+}
+
+TEST(AtomicFileTest, AKilledWriterLeavesNothingBehind) {
+  const TempDir folder;
+  const int nameless = ::open(folder.path().c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (nameless < 0) GTEST_SKIP() << "this file system has no files without names";
+  ::close(nameless);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    AtomicFile file(folder / "a");
+    file.write(std::string(3'000'000, 'x'));
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(files_in(folder.path()), 0U);
 }
 
 // A limit on the size of files stands in for a full disk. In a child process, since the limit stays.

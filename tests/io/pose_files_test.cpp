@@ -14,8 +14,8 @@ using test::expect_io_error;
 using test::slurp;
 using test::TempDir;
 
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t kMostStamp = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kLeastStamp = std::numeric_limits<std::int64_t>::min();
 
 Trajectory some_trajectory() {
   std::mt19937 random(7);
@@ -46,8 +46,8 @@ TEST(StampTest, FormatIsExact) {
   EXPECT_EQ(format_stamp(1'500'000'000), "1.500000000");
   EXPECT_EQ(format_stamp(-1), "-0.000000001");
   EXPECT_EQ(format_stamp(-2'500'000'000), "-2.500000000");
-  EXPECT_EQ(format_stamp(kMost), "9223372036.854775807");
-  EXPECT_EQ(format_stamp(kLeast), "-9223372036.854775808");
+  EXPECT_EQ(format_stamp(kMostStamp), "9223372036.854775807");
+  EXPECT_EQ(format_stamp(kLeastStamp), "-9223372036.854775808");
 }
 
 TEST(StampTest, ParseIsExact) {
@@ -63,7 +63,7 @@ TEST(StampTest, ParseIsExact) {
   EXPECT_EQ(parse_stamp("4e-10"), 0);
   EXPECT_EQ(parse_stamp("9e-20"), 0);
   EXPECT_EQ(parse_stamp("00000000000000000000000001"), 1'000'000'000);
-  EXPECT_EQ(parse_stamp("9223372036.854775807"), kMost);
+  EXPECT_EQ(parse_stamp("9223372036.854775807"), kMostStamp);
 }
 
 TEST(StampTest, RefusesWhatIsNoStamp) {

@@ -2,120 +2,18 @@
 
 #include <limits>
 #include <regex>
-#include <sstream>
 #include <stdexcept>
-#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-namespace rilo {
+#include "report/report_pages.hpp"
+
+namespace rilo::test {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-/// A drive of `n` sweeps along x, estimated 1 % too long; sweep i took 10 + i / 10 ms.
-RunReport drive(std::size_t n) {
-  RunReport run;
-  run.title = "Drive";
-  run.dataset = "data/drive";
-  run.facts = {{"command", "rilo run data/drive"}, {"elevation correction", "none"}, {"pose instant", "end"}};
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto s = static_cast<double>(i);
-    SE3 T = SE3::Identity();
-    T.translation() = Eigen::Vector3d(s, 0, 0);
-    run.truth.push_back(T);
-    T.translation() *= 1.01;
-    run.estimate.push_back(T);
-    ReportSweep sweep;
-    sweep.total_ms = 10.0 + s / 10.0;
-    sweep.preprocess_ms = 3.0;
-    sweep.registration_ms = 6.0;
-    sweep.iterations = 7;
-    sweep.inlier_ratio = 0.875;
-    sweep.sigma_th_m = 0.25;
-    sweep.status = i == 0 ? "initialising" : "ok";
-    sweep.initial_pose = i == 0 ? "identity" : "prediction";
-    run.sweeps.push_back(sweep);
-    run.map_points.emplace_back(static_cast<float>(s), 5.0F, 1.0F);
-  }
-  if (n >= 2) {
-    run.evaluation = evaluate(run.truth, run.estimate);
-  }
-  return run;
-}
-
-std::string page(const RunReport& run) {
-  std::ostringstream out;
-  write_html_report(run, out);
-  return out.str();
-}
-
-/// The page without its pictures, whose Base64 may spell anything.
-std::string without_pictures(const std::string& html) {
-  std::string text;
-  std::size_t from = 0;
-  const std::string mark = "data:image/png;base64,";
-  for (std::size_t at = html.find(mark); at != std::string::npos; at = html.find(mark, from)) {
-    text += html.substr(from, at - from);
-    from = html.find('"', at);
-  }
-  return text + html.substr(from);
-}
-
-std::vector<nlohmann::json> data_of(const std::string& html) {
-  const std::string open = "<script type=\"application/json\">";
-  std::vector<nlohmann::json> blocks;
-  for (std::size_t at = html.find(open); at != std::string::npos; at = html.find(open, at + 1)) {
-    const std::size_t from = at + open.size();
-    blocks.push_back(nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from)));
-  }
-  return blocks;
-}
-
-/// Every element opened is closed, in order. Style, script and the void elements aside.
-void expect_balanced(std::string html) {
-  html = std::regex_replace(without_pictures(html), std::regex("<!DOCTYPE html>"), "");
-  for (const char* name : {"style", "script"}) {
-    const std::string open = std::string("<") + name;
-    const std::string close = std::string("</") + name + ">";
-    for (std::size_t at = html.find(open); at != std::string::npos; at = html.find(open)) {
-      html.erase(at, html.find(close, at) + close.size() - at);
-    }
-  }
-  std::vector<std::string> open;
-  const std::regex tag("<(/?)([a-z0-9]+)[^<>]*>");
-  for (std::sregex_iterator it(html.begin(), html.end(), tag), end; it != end; ++it) {
-    const std::string name = (*it)[2];
-    if (name == "meta") {
-      continue;
-    }
-    if ((*it)[1].length() == 0) {
-      open.push_back(name);
-      continue;
-    }
-    ASSERT_FALSE(open.empty()) << "</" << name << "> closes nothing";
-    ASSERT_EQ(open.back(), name);
-    open.pop_back();
-  }
-  EXPECT_TRUE(open.empty());
-  EXPECT_EQ(std::regex_replace(html, tag, "").find('<'), std::string::npos) << "a stray <";
-}
-
-/// What every page must hold to, whatever it shows.
-void expect_sound(const std::string& html) {
-  const std::string text = without_pictures(html);
-  EXPECT_EQ(text.compare(0, 15, "<!DOCTYPE html>"), 0);
-  EXPECT_THAT(text, Not(HasSubstr("http://")));
-  EXPECT_THAT(text, Not(HasSubstr("https://")));
-  EXPECT_THAT(text, Not(HasSubstr("@import")));
-  for (const char* wrong : {"nan", "NaN", "inf<", "infm", "-inf"}) {
-    EXPECT_THAT(text, Not(HasSubstr(wrong)));
-  }
-  expect_balanced(html);
-}
 
 TEST(HtmlReport, HasEverySection) {
   const std::string html = page(drive(301));
@@ -137,7 +35,7 @@ TEST(HtmlReport, EveryChartHasItsFunction) {
   const std::string html = page(drive(301)) + page(without_truth);
   const std::regex chart("data-chart=\"([a-z]+)\"");
   for (std::sregex_iterator it(html.begin(), html.end(), chart), end; it != end; ++it) {
-    EXPECT_THAT(html, HasSubstr("    " + (*it)[1].str() + "(run, host) {"));
+    EXPECT_THAT(html, HasSubstr("\n  " + (*it)[1].str() + "(run, host) {"));
   }
 }
 
@@ -199,7 +97,7 @@ TEST(HtmlReport, WithoutTruth) {
   const std::string html = page(run);
   expect_sound(html);
   EXPECT_THAT(html, Not(HasSubstr("against truth")));
-  EXPECT_THAT(html, Not(HasSubstr("t_rel")));
+  EXPECT_THAT(html.substr(0, html.find("<script>\n")), Not(HasSubstr("t_rel")));
   EXPECT_THAT(html, HasSubstr("data-chart=\"speed\""));
   EXPECT_THAT(html, HasSubstr("49.5<span class=\"unit\">m</span>"));
   EXPECT_TRUE(data_of(html)[0]["errors"].is_null());
@@ -248,19 +146,6 @@ TEST(HtmlReport, WithoutTimesThereIsNoTimingChart) {
 
 TEST(HtmlReport, PathsBelow150MetresSaySo) { EXPECT_THAT(page(drive(101)), HasSubstr("eighths of 80 %")); }
 
-TEST(HtmlReport, SeveralRunsAreCompared) {
-  RunReport second = drive(200);
-  second.title = "Second <run>";
-  second.evaluation.reset();
-  std::ostringstream out;
-  write_html_report({drive(301), second}, out);
-  const std::string html = out.str();
-  expect_sound(html);
-  EXPECT_THAT(html, HasSubstr("Runs compared"));
-  EXPECT_THAT(html, HasSubstr("<tr><th>Second &lt;run&gt;</th><td>–</td>"));
-  EXPECT_EQ(data_of(html).size(), 2U);
-}
-
 TEST(HtmlReport, RefusesWhatDoesNotFitTogether) {
   std::ostringstream out;
   EXPECT_THROW(write_html_report(std::vector<RunReport>{}, out), std::invalid_argument);
@@ -274,4 +159,4 @@ TEST(HtmlReport, RefusesWhatDoesNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -67,6 +67,10 @@ class Server {
     });
   }
 
+  void start_over() {
+    asio::post(io_, [this] { hub_.start_over(); });
+  }
+
  private:
   static ViewOptions options() {
     ViewOptions options;
@@ -186,6 +190,22 @@ TEST(ViewServer, APageThatComesLateGetsEverything) {
   page.send(ask_sweep(17));
   while (u32(page.until(FrameType::kSweep), 8) != 17U) {
   }
+}
+
+TEST(ViewServer, ARunThatStartsOverIsShownFromItsFirstSweep) {
+  Server server;
+  server.add(300);
+  Page page(server);
+  ASSERT_FALSE(page.until(FrameType::kRecords).empty());
+  server.start_over();
+  while (!page.read().empty()) {
+  }
+  server.add(5);
+  Page again(server);
+  const Bytes frame = again.until(FrameType::kRecords);
+  ASSERT_FALSE(frame.empty());
+  EXPECT_EQ(u32(frame, 8), 0U);
+  EXPECT_LE(u32(frame, 4), 5U);
 }
 
 TEST(ViewServer, OtherOriginsAndHostsAreTurnedAway) {

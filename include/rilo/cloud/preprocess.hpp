@@ -42,6 +42,9 @@ class Preprocessor {
   /// Whether to find out which beam each point came from: fills the sample, and corrects the angles of single beams.
   void track_beams(bool tracked) { beams_tracked_ = tracked; }
 
+  /// Whether the clouds carry the intensities of sweeps that have them.
+  void keep_intensities(bool kept) { intensities_kept_ = kept; }
+
   /// How many points the source cloud should have from the next sweep on, instead of config.source_points.
   void set_source_points(double points);
 
@@ -68,6 +71,7 @@ class Preprocessor {
   double source_voxel_m_ = 0;  // 0: no sweep has been seen
   double elevation_offset_rad_ = 0;
   bool beams_tracked_ = false;
+  bool intensities_kept_ = false;
   BeamIndex beam_index_;
   BeamAngles beam_angles_;
   std::vector<Beam> beams_;          // of the points of the sweep

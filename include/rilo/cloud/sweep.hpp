@@ -23,11 +23,16 @@ struct Sweep {
 struct SweepView {
   SweepView() = default;
   SweepView(const Sweep& sweep)  // NOLINT(google-explicit-constructor): a sweep is taken wherever a view is
-      : stamp_ns(sweep.stamp_ns), points(sweep.points), times_s(sweep.times_s), rings(sweep.rings) {}
+      : stamp_ns(sweep.stamp_ns),
+        points(sweep.points),
+        times_s(sweep.times_s),
+        intensities(sweep.intensities),
+        rings(sweep.rings) {}
 
   std::int64_t stamp_ns = 0;
   std::span<const Eigen::Vector3f> points;
   std::span<const float> times_s;
+  std::span<const float> intensities;
   std::span<const std::uint16_t> rings;
 };
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "rilo/cloud/map_cloud.hpp"
 #include "rilo/geometry/se3.hpp"
 
 namespace rilo {
@@ -15,18 +16,26 @@ namespace rilo {
 /// time.
 class ThinnedMap {
  public:
-  explicit ThinnedMap(double voxel_m) : inverse_(1.0 / voxel_m) {}
+  explicit ThinnedMap(double voxel_m) : voxel_m_(voxel_m) {}
 
-  /// Adds points of the sensor frame (m, finite) seen at `T_odom_lidar`.
-  void add(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar);
+  /// Adds points of the sensor frame (m, finite) seen at `T_odom_lidar`; `intensities`: empty for all sweeps, or as
+  /// long as the points.
+  void add(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar,
+           const std::vector<float>& intensities = {});
 
   /// Odometry frame, m.
   const std::vector<Eigen::Vector3f>& points() const { return points_; }
 
+  /// The points with their intensities and, when wanted, normals.
+  MapCloud cloud(bool with_normals) const;
+
  private:
-  double inverse_;
+  double voxel_m_;
   std::unordered_set<std::uint64_t> taken_;
   std::vector<Eigen::Vector3f> points_;
+  std::vector<float> intensities_;
+  std::vector<std::uint32_t> sweeps_;    // which one each point is of
+  std::vector<Eigen::Vector3f> places_;  // of the sensor, by sweep
 };
 
 }  // namespace rilo

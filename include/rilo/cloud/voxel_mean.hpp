@@ -10,9 +10,9 @@
 
 namespace rilo {
 
-/// Replaces the points of each voxel by their mean, at their mean offset. On a plane the mean lies in the plane, with
-/// the noise of one point divided by the root of their number, and over several beams: what a subset would throw away.
-/// The table of visited voxels is reused from call to call. Points must be finite.
+/// Replaces the points of each voxel by their mean, at their mean offset and intensity. On a plane the mean lies in the
+/// plane, with the noise of one point divided by the root of their number, and over several beams: what a subset would
+/// throw away. The table of visited voxels is reused from call to call. Points must be finite.
 class VoxelMean {
  public:
   /// Writes one point per voxel of `voxel_m` to `out`, in the order in which the voxels first appear in `in`. Points
@@ -38,12 +38,14 @@ class VoxelMean {
   void start();
   std::uint32_t number_of(std::uint64_t key);
   void grow();
+  void add_intensity(std::uint32_t number, float intensity);
   void write(bool timed, TimedCloud& out) const;
 
   std::vector<std::uint64_t> keys_;  // of the points
   std::vector<Slot> slots_;
   std::uint32_t generation_ = 0;
   std::vector<Mean> means_;
+  std::vector<float> intensity_sums_;  // of the means; empty without intensities
 };
 
 }  // namespace rilo

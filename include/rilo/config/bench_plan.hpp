@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -38,12 +39,19 @@ struct BenchSequence {
 struct BenchConfiguration {
   std::string name;
   OdometryConfig config;
-  std::vector<std::string> settings;  ///< the file's name and key=value, for the results
+  std::vector<std::string> settings;                              ///< the file's name and key=value, for the results
+  std::optional<double> elevation_correction_deg = std::nullopt;  ///< goes before that of the sequence
 };
+
+/// Tables of the paper that the results go into.
+enum class PaperTables : std::uint8_t { kNone, kKitti, kM2dgr };
 
 struct BenchPlan {
   std::vector<BenchSequence> sequences;
   std::vector<BenchConfiguration> configurations;  ///< never empty
+  std::size_t repeats = 1;                         ///< of each configuration on each sequence
+  bool skip_missing = false;                       ///< sequences whose data are not there are left out
+  PaperTables tables = PaperTables::kNone;
 };
 
 /// Reads a plan; docs/bench.md describes the file. Relative paths of sequences count from `root`, or from the file's

@@ -9,8 +9,9 @@
 
 namespace rilo {
 
-/// Writes to a temporary file beside `target`; commit() makes it durable and renames it. Without commit (an exception,
-/// an early return) the temporary file is removed and `target` stays as it was. All functions throw IoError: folder
+/// Writes to a temporary file on the disk of `target`; commit() makes it durable and puts it in place. Without commit
+/// (an exception, an early return) it goes away and `target` stays as it was. It has no name before commit() where the
+/// file system can do that, so that a program that is killed leaves nothing either. All functions throw IoError: folder
 /// missing or not writable, target not a regular file, disk full.
 class AtomicFile {
  public:
@@ -28,10 +29,14 @@ class AtomicFile {
   /// Flushes, fsyncs, renames. Nothing may be written afterwards.
   void commit();
 
+  /// The temporary file, for a library that writes files by itself: it may truncate and write it, not replace it.
+  const std::filesystem::path& temporary() const { return temporary_; }
+
   const std::filesystem::path& target() const { return target_; }
 
  private:
   void flush();
+  void give_name();
   void write_at(std::uint64_t offset, std::string_view bytes);
   void discard() noexcept;
   [[noreturn]] void fail(const std::string& action, int error_number);

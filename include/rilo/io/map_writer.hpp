@@ -3,26 +3,29 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
-#include <vector>
 
-#include <Eigen/Core>
-
+#include "rilo/cloud/map_cloud.hpp"
 #include "rilo/io/atomic_file.hpp"
 
 namespace rilo {
+
+/// What a map says of each point besides its place.
+struct MapColumns {
+  bool normals = false;
+  bool intensity = false;
+};
 
 /// Writes points as they come; the count in the header is filled in by finish(). The extension decides: .ply (binary
 /// little endian) or .pcd (binary). Without finish() no file appears.
 class MapWriter {
  public:
   /// @throws IoError: unknown extension, folder not writable.
-  explicit MapWriter(const std::filesystem::path& file, bool with_intensity = false);
+  explicit MapWriter(const std::filesystem::path& file, MapColumns columns = {});
 
-  /// Appends points (m). `intensities` is as long as `points` when the map has intensity, else empty.
-  /// @throws std::invalid_argument when it is not.
-  void add(std::span<const Eigen::Vector3f> points, std::span<const float> intensities = {});
+  /// Appends points (m). @throws std::invalid_argument when a column of the map is not as long as `points`, or one that
+  /// the map has not is not empty.
+  void add(const MapCloud& part);
 
   /// Completes the header and puts the file in place.
   void finish();
@@ -33,13 +36,12 @@ class MapWriter {
   std::string header() const;
 
   bool ply_;
-  bool with_intensity_;
+  MapColumns columns_;
   AtomicFile file_;
   std::uint64_t count_ = 0;
 };
 
-/// The whole map in one call.
-void write_map(const std::filesystem::path& file, const std::vector<Eigen::Vector3f>& points,
-               const std::vector<float>& intensities = {});
+/// The whole map in one call, with the columns that it has.
+void write_map(const std::filesystem::path& file, const MapCloud& map);
 
 }  // namespace rilo

@@ -16,6 +16,9 @@ namespace rilo {
 /// @throws IoError with line and column: not 12 finite numbers, or not a rigid transform (tolerance 1e-3).
 std::vector<SE3> read_kitti_poses(const std::filesystem::path& file);
 
+/// The same of a file that somebody may still be writing: a last line without its end is left out.
+std::vector<SE3> read_growing_kitti_poses(const std::filesystem::path& file);
+
 /// TUM form: `t x y z qx qy qz qw` a line, t in seconds, read exactly to the nanosecond; the quaternion is normalised.
 /// @throws IoError with line and column: not 8 finite numbers, quaternion norm off by more than 1e-3.
 Trajectory read_tum(const std::filesystem::path& file);

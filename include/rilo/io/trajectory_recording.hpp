@@ -1,4 +1,4 @@
-// A run as a recording with the message types of ROS 2, which Foxglove knows.
+// A run as a recording with the message types of ROS.
 #pragma once
 
 #include <filesystem>
@@ -24,5 +24,14 @@ struct RecordingNames {
 /// @throws IoError when it cannot be written.
 void write_mcap(const std::filesystem::path& file, std::span<const SweepResult> results,
                 const RecordingNames& names = {});
+
+/// Whether this build writes ROS 1 bags: it does where ROS' own library was found.
+bool can_write_bags();
+
+/// The same as a ROS 1 bag: nav_msgs/Odometry and tf2_msgs/TFMessage. ROS 1 knows no time before 1970, none after 2106
+/// and no message at time 0: such stamps are moved to the nearest that it knows.
+/// @throws IoError when it cannot be written, or where can_write_bags() is false.
+void write_bag(const std::filesystem::path& file, std::span<const SweepResult> results,
+               const RecordingNames& names = {});
 
 }  // namespace rilo

@@ -44,6 +44,12 @@ class Odometry {
   /// Points of the last sweep that went into the map, motion-compensated, sensor frame at the pose's instant (m).
   const std::vector<Eigen::Vector3f>& last_map_points() const;
 
+  /// Whether last_map_intensities() are wanted, from the next sweep on.
+  void keep_intensities(bool kept);
+
+  /// Mean intensities of last_map_points(); empty when they are not kept or the sweep had none.
+  const std::vector<float>& last_map_intensities() const;
+
   /// Forgets map, trajectory and motion; the next sweep starts anew at the identity.
   void reset();
 

@@ -25,6 +25,10 @@ inline constexpr std::size_t kStatusCount = 7;
 /// Short name for files: ok, initialising, degenerate, few_correspondences, lost, recovered, empty.
 std::string_view to_string(OdometryStatus status);
 
+/// Whether Odometry::last_map_points() of a sweep with that status belong in a map of the whole run. Not those of a
+/// guess, nor, where points have times, of the first sweep: its velocity was not known, its points are smeared.
+bool belongs_in_map(OdometryStatus status, bool timed);
+
 /// Which candidate started the fine registration (III-B).
 enum class InitialPoseSource : std::uint8_t { kIdentity, kPrediction, kCoarse };
 /// identity, prediction, coarse.

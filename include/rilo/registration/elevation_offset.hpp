@@ -29,12 +29,12 @@ ElevationInformation elevation_information(const TimedCloud& source, const Local
 /// δ over all sweeps so far.
 class ElevationOffsetEstimator {
  public:
-  explicit ElevationOffsetEstimator(const ElevationOffsetConfig& config) : config_(config) {}
+  explicit ElevationOffsetEstimator(const ElevationOffsetConfig& config);
 
   /// Adds a sweep that was registered with `applied_rad()` added to its elevation angles.
   void add(const ElevationInformation& sweep);
 
-  /// Estimate of the angle to add to the sensor's elevation angles, 0 before any sweep.
+  /// Estimate of the angle to add to the sensor's elevation angles; the configured one before any sweep.
   double offset_rad() const;
   /// Its standard deviation, from the scatter of blocks of sweeps; infinite before there are enough.
   double sigma_rad() const;

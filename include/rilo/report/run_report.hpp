@@ -1,6 +1,7 @@
 // What a report shows of one run of the odometry.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,14 +31,18 @@ struct ReportSweep {
 /// Everything about one run. Text may hold any characters; it is escaped.
 struct RunReport {
   std::string title;
-  std::string dataset;  ///< path or name of the data
-  std::string notice;   ///< shown on top when not empty, e.g. that the run was interrupted
+  std::string name;      ///< short, in legends and tables of a comparison; empty: the title
+  std::string sequence;  ///< runs of the same one are compared with each other
+  std::string dataset;   ///< path or name of the data
+  std::string notice;    ///< shown on top when not empty, e.g. that the run was interrupted
   std::vector<std::pair<std::string, std::string>>
       facts;                        ///< command, configuration, corrections, pose instant, threads …
   std::vector<SE3> estimate;        ///< T_odom_lidar, one a sweep (x forward, y left, z up)
   std::vector<SE3> truth;           ///< empty, or true poses in the same frame (equal first poses); any length
   std::vector<ReportSweep> sweeps;  ///< empty, or one a pose of `estimate`
   std::optional<Evaluation> evaluation;
+  /// Figures found before, for what can no longer be computed (the truth is gone): see ComparisonFigure::key.
+  std::map<std::string, double> recorded;
   std::vector<Eigen::Vector3f> map_points;  ///< odometry frame (m); empty: no map picture
   double sweep_period_ms = 100;             ///< time between sweeps: what "real time" means
   double peak_rss_mb = 0;                   ///< 0: unknown

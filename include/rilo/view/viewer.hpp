@@ -54,6 +54,9 @@ class Viewer {
   /// one that was pushed). Both spans are of the same length.
   void add_map(std::span<const Eigen::Vector3f> points, std::span<const std::uint32_t> sweeps);
 
+  /// Forgets the sweeps so far: the run begins anew. Pages are disconnected, and connect again by themselves.
+  void start_over();
+
   /// No sweep will come any more.
   void finish();
 

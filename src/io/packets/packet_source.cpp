@@ -15,7 +15,7 @@ namespace rilo::detail {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kLookedAt = 2000;  // datagrams
+constexpr std::size_t kDatagramsLookedAt = 2000;  // datagrams
 
 // What the first datagrams are.
 struct Contents {
@@ -35,7 +35,7 @@ struct Contents {
 Contents contents_of(const fs::path& file) {
   UdpReader reader(file);
   Contents contents;
-  for (std::size_t i = 0; i < kLookedAt; ++i) {
+  for (std::size_t i = 0; i < kDatagramsLookedAt; ++i) {
     const auto datagram = reader.next();
     if (!datagram) break;
     if (contents.counts.size() < 8) ++contents.counts[{datagram->port, datagram->payload.size()}];

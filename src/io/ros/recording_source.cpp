@@ -120,6 +120,7 @@ Sweep RecordingSource::decode(const RecordedMessage& message) {
   file_ = message.file;
   const std::string part = "message " + std::to_string(current_ + 1) + " of " + topic_.name;
   const PointCloud2 cloud = parse_point_cloud2(message.bytes, encoding_of(topic_), message.file, part);
+  info_.frame_id = cloud.frame_id;
   RawCloud columns = columns_of(cloud, options_.time_field, message.file, part);
   Sweep sweep;
   sweep.stamp_ns = cloud.stamp_ns;

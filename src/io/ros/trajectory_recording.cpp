@@ -6,6 +6,7 @@
 #include "io/ros/mcap_writer.hpp"
 #include "io/stamp_difference.hpp"
 #include "io/unit_quaternion.hpp"
+#include "rilo/io/ros_covariance.hpp"
 
 namespace rilo {
 namespace {
@@ -70,20 +71,11 @@ void put_pose(CdrWriter& cdr, const SE3& T) {
   cdr.put(q.x()).put(q.y()).put(q.z()).put(q.w());
 }
 
-// ROS wants position before rotation, both about the axes of the parent frame.
-Matrix6d ros_covariance(const SweepResult& result) {
-  const Eigen::Matrix3d R = result.T_odom_lidar.linear();
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topRightCorner<3, 3>() = R;
-  turn.bottomLeftCorner<3, 3>() = R;
-  return turn * result.covariance * turn.transpose();
-}
-
 std::string odometry_message(const SweepResult& result, const RecordingNames& names) {
   CdrWriter cdr;
   put_header(cdr, result.stamp_ns, names);
   put_pose(cdr, result.T_odom_lidar);
-  const Matrix6d covariance = ros_covariance(result);
+  const Matrix6d covariance = ros_pose_covariance(result.T_odom_lidar, result.covariance);
   for (Eigen::Index row = 0; row < 6; ++row) {
     for (Eigen::Index column = 0; column < 6; ++column) cdr.put(covariance(row, column));
   }

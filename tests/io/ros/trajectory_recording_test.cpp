@@ -15,14 +15,14 @@ namespace {
 using test::expect_io_error;
 using test::TempDir;
 
-constexpr std::int64_t kStamp = 1'700'000'000'123'456'789;
+constexpr std::int64_t kFirstStamp = 1'700'000'000'123'456'789;
 
 std::vector<SweepResult> some_results(std::size_t count) {
   std::vector<SweepResult> results(count);
   for (std::size_t i = 0; i < count; ++i) {
     SweepResult& result = results[i];
     const double k = static_cast<double>(i);
-    result.stamp_ns = kStamp + 100'000'000 * static_cast<std::int64_t>(i);
+    result.stamp_ns = kFirstStamp + 100'000'000 * static_cast<std::int64_t>(i);
     result.T_odom_lidar.linear() = so3_exp(Eigen::Vector3d(0, 0, 1.5707963267948966));
     result.T_odom_lidar.translation() = Eigen::Vector3d(k, 2 * k, -k);
     result.twist << 0.1, 0.2, 0.3, 4, 5, 6;
@@ -85,7 +85,7 @@ TEST(TrajectoryRecordingTest, OdometryAndTransformsOfEverySweep) {
 
   const auto odometry = messages_of(folder.path() / "run.mcap", 1);
   ASSERT_EQ(odometry.size(), 3U);
-  EXPECT_EQ(odometry[1].stamp_ns, kStamp + 100'000'000);
+  EXPECT_EQ(odometry[1].stamp_ns, kFirstStamp + 100'000'000);
   // After the encapsulation: stamp 8 bytes, "odom" 4 + 5, padding 3, "lidar" 4 + 6, padding 2; then numbers.
   const std::string_view body = std::string_view(odometry[1].bytes).substr(4);
   EXPECT_EQ(body.substr(12, 5), std::string_view("odom\0", 5));

@@ -1,0 +1,62 @@
+#include "bench_output.hpp"
+
+#include "bench_baseline.hpp"
+#include "bench_paper.hpp"
+#include "bench_repeats.hpp"
+#include "rilo/io/atomic_file.hpp"
+#include "rilo/io/io_error.hpp"
+#include "text.hpp"
+
+namespace rilo::cli {
+
+namespace {
+
+std::vector<TitledTable> paper_tables(const BenchOutput& output, MeasuredColumns measured) {
+  switch (output.tables) {
+    case PaperTables::kKitti:
+      return kitti_tables(output.bench.cells, measured);
+    case PaperTables::kM2dgr:
+      return m2dgr_tables(output.bench.cells);
+    case PaperTables::kNone:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+BenchOutput bench_output(const BenchStore& store) {
+  std::vector<BenchCell> cells;
+  cells.reserve(store.cells.size());
+  for (const StoredCell& stored : store.cells) cells.push_back(stored.cell);
+  BenchOutput output{store.bench, store.tables, nullptr, {}};
+  output.bench.cells = combined(cells);
+  return output;
+}
+
+std::vector<TitledTable> all_tables(const BenchOutput& output, MeasuredColumns measured) {
+  std::vector<TitledTable> tables = bench_tables(output.bench.cells, measured);
+  const auto paper = paper_tables(output, measured);
+  tables.insert(tables.end(), paper.begin(), paper.end());
+  if (!output.baseline.is_null()) {
+    tables.push_back(baseline_table(output.bench.cells, output.baseline, output.baseline_file));
+  }
+  return tables;
+}
+
+std::string bench_markdown(const BenchOutput& output, MeasuredColumns measured) {
+  return "# " + output.bench.command_line + "\n\n" + markdown_text(all_tables(output, measured));
+}
+
+void write_results(const std::filesystem::path& folder, const BenchOutput& output, const BenchStore& store) {
+  try {
+    write_atomically(folder / "results.json", json_text(results_json(output.bench)));
+    write_atomically(folder / "results.csv", bench_csv(output.bench.cells).csv());
+    write_atomically(folder / "results.md", bench_markdown(output));
+    write_store(folder / kStoreName, store);
+  } catch (const IoError& error) {
+    throw CommandError(kCannotWrite, error.what());
+  }
+}
+
+}  // namespace rilo::cli

@@ -1,0 +1,65 @@
+// PointCloud2 messages on their way from the thread that receives them to the one that reads them. C++17, as ROS 1's
+// headers need it.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace rilo {
+
+struct LiveQueueOptions {
+  std::string topic = "/points";  ///< for messages
+  std::size_t limit = 2;          ///< messages that may wait: beyond it the oldest goes; 0: all wait
+  /// The first messages show the sweeps' period, as at the start of a recording (12 there): so many are held back, and
+  /// none of them is dropped. 0: none, the period is 1 / assumed_rate_hz.
+  std::size_t look_ahead = 12;
+  double look_ahead_wait_s = 3;  ///< no message for so long ends the looking ahead
+};
+
+struct LiveQueueCounts {
+  std::size_t received = 0;
+  std::size_t dropped = 0;  ///< for want of time
+  std::size_t waiting = 0;
+};
+
+/// ROS 1 messages on their way from the thread that receives them to the one that reads the source.
+class LiveQueue {
+ public:
+  struct Message {
+    std::int64_t received_ns = 0;
+    std::string bytes;  ///< of a sensor_msgs/PointCloud2, serialized
+  };
+
+  explicit LiveQueue(LiveQueueOptions options) : options_(std::move(options)) {}
+
+  /// Never waits. While the messages of the looking ahead are worked off, more may wait: twice as many, less those
+  /// taken.
+  void push(Message message);
+
+  /// Wakes the reader: the source ends with what is waiting thrown away.
+  void close();
+
+  /// Waits for the oldest message. Nothing after close(), or when `longest_s` passes without one.
+  std::optional<Message> pop(std::optional<double> longest_s = std::nullopt);
+
+  LiveQueueCounts counts() const;
+  const LiveQueueOptions& options() const { return options_; }
+
+ private:
+  LiveQueueOptions options_;
+  mutable std::mutex mutex_;
+  std::condition_variable arrived_;
+  std::deque<Message> waiting_;
+  std::size_t received_ = 0;
+  std::size_t taken_ = 0;
+  std::size_t dropped_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace rilo

@@ -1,0 +1,53 @@
+// What the node tells on /diagnostics.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "odometry_session.hpp"
+#include "rilo/io/live_queue.hpp"
+#include "rilo/odometry/sweep_result.hpp"
+
+namespace rilo::ros1 {
+
+/// Counts what happens; any thread.
+class NodeHealth {
+ public:
+  /// What the node is waiting for; empty: nothing but sweeps.
+  void note_waiting(const std::string& what);
+  void note_sweep(const SweepResult& result, double total_ms);
+  void note_bad_message(const std::string& why);
+  void note_reset();
+  void note_source(const SourceFigures& info);
+
+  /// One report: level and sentence of the worst that is the case now or happened since the last report, and all
+  /// counts.
+  void report(const LiveQueueCounts& queue, diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  void judge(const LiveQueueCounts& queue, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void add_counts(const LiveQueueCounts& queue, diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+  mutable std::mutex mutex_;
+  std::string waiting_for_;
+  std::optional<SweepResult> last_;
+  SourceFigures source_;
+  std::array<std::size_t, kStatusCount> by_status_{};
+  std::size_t sweeps_ = 0;
+  std::size_t bad_messages_ = 0;
+  std::size_t resets_ = 0;
+  std::string last_bad_message_;
+  double last_ms_ = 0;
+  double sum_ms_ = 0;
+  double most_ms_ = 0;
+  // At the last report.
+  LiveQueueCounts reported_queue_;
+  std::size_t reported_bad_messages_ = 0;
+  std::size_t silent_reports_ = 0;  // without a message
+};
+
+}  // namespace rilo::ros1

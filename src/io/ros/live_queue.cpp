@@ -1,0 +1,54 @@
+#include "rilo/io/live_queue.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace rilo {
+
+void LiveQueue::push(Message message) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (closed_) return;
+    ++received_;
+    waiting_.push_back(std::move(message));
+    const std::size_t start_up = 2 * options_.look_ahead;
+    const std::size_t most = options_.limit + (start_up - std::min(taken_, start_up));
+    while (options_.limit > 0 && waiting_.size() > most) {
+      waiting_.pop_front();
+      ++dropped_;
+    }
+  }
+  arrived_.notify_one();
+}
+
+void LiveQueue::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    waiting_.clear();
+  }
+  arrived_.notify_all();
+}
+
+std::optional<LiveQueue::Message> LiveQueue::pop(std::optional<double> longest_s) {
+  std::unique_lock lock(mutex_);
+  const auto ready = [this] { return closed_ || !waiting_.empty(); };
+  if (longest_s) {
+    arrived_.wait_for(lock, std::chrono::duration<double>(*longest_s), ready);
+  } else {
+    arrived_.wait(lock, ready);
+  }
+  if (waiting_.empty()) return std::nullopt;
+  Message message = std::move(waiting_.front());
+  waiting_.pop_front();
+  ++taken_;
+  return message;
+}
+
+LiveQueueCounts LiveQueue::counts() const {
+  const std::lock_guard lock(mutex_);
+  return {received_, dropped_, waiting_.size()};
+}
+
+}  // namespace rilo

@@ -1,0 +1,22 @@
+#include "rilo/io/ros_covariance.hpp"
+
+namespace rilo {
+namespace {
+
+// Swaps rotation and translation, and turns both.
+Matrix6d swapped(const Eigen::Matrix3d& R, const Matrix6d& covariance) {
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topRightCorner<3, 3>() = R;
+  turn.bottomLeftCorner<3, 3>() = R;
+  return turn * covariance * turn.transpose();
+}
+
+}  // namespace
+
+Matrix6d ros_pose_covariance(const SE3& T_parent_body, const Matrix6d& covariance) {
+  return swapped(T_parent_body.linear(), covariance);
+}
+
+Matrix6d ros_twist_covariance(const Matrix6d& covariance) { return swapped(Eigen::Matrix3d::Identity(), covariance); }
+
+}  // namespace rilo

@@ -1,0 +1,36 @@
+// The figures that runs are compared by.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rilo/report/experiment_report.hpp"
+#include "rilo/report/run_report.hpp"
+
+namespace rilo {
+
+/// A number of a run; the smaller the better.
+struct ComparisonFigure {
+  ExperimentFigure what;  ///< keys as in results.json of a benchmark
+  std::optional<double> (*of)(const RunReport& run);
+};
+
+/// Accuracy first, then effort.
+const std::vector<ComparisonFigure>& comparison_figures();
+
+/// Computed from the run, else as recorded; nothing when it is neither, or not finite.
+std::optional<double> value_of(const RunReport& run, const ComparisonFigure& figure);
+
+/// Name for legends and tables, not escaped.
+std::string name_of(const RunReport& run);
+
+/// Sequences in the order of their first run, with the places of their runs.
+std::vector<std::pair<std::string, std::vector<std::size_t>>> by_sequence(const std::vector<RunReport>& runs);
+
+/// The runs as cells of an experiment: what they are called by sequence and name.
+ExperimentReport experiment_of(const std::vector<RunReport>& runs);
+
+}  // namespace rilo

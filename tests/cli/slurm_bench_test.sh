@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# rilo bench --on slurm against a real Slurm on this machine: the tables of a local run, tasks that are killed, cancelled
+# or out of time and submitted again, a failure that is listed, a driver that is killed. Exit code 77: no Slurm here.
+set -euo pipefail
+scripts="$1/scripts"
+rilo="${RILO_BIN:?run this through ctest}"
+PATH="$PATH:/usr/sbin:/sbin"
+"$scripts/slurm_local.sh" check || { echo "skipped: no Slurm here (slurmctld, slurmd, slurm-client, munge)"; exit 77; }
+
+work="$(mktemp -d)"
+driver=""
+finish() {
+  [ -z "$driver" ] || kill -9 "$driver" 2>/dev/null || true
+  "$scripts/slurm_local.sh" stop "$work/slurm" || true
+  rm -rf "$work"
+}
+trap finish EXIT
+fail() {
+  echo "FAILED: $*" >&2
+  tail -n 20 "$work"/*.err >&2 || true
+  exit 1
+}
+wait_for() {
+  for _ in $(seq 600); do
+    "$@" >/dev/null 2>&1 && return 0
+    sleep 0.1
+  done
+  fail "waited in vain: $*"
+}
+# Every process of the task of a cell; nothing when it does not run.
+task_of() { pgrep -f -- "--out $work/$1 .*--cell $2\$"; }
+# How many tasks the cell has had.
+tasks_had() { find "$work/$1/slurm" -name "*_$2.log" | wc -l; }
+array_of() { squeue --noheader --me --array --format=%F_%K | grep "_$1\$"; }
+same_tables() {
+  diff <("$rilo" bench show "$work/local" --no-times) <("$rilo" bench show "$work/$1" --no-times) ||
+    fail "the tables of $1 are not those of the local run"
+}
+
+RILO_SLURM_CPUS=2 "$scripts/slurm_local.sh" start "$work/slurm" >/dev/null
+export SLURM_CONF="$work/slurm/slurm.conf"
+"$rilo" simulate --out "$work/drive" --sensor vlp16 --start 10 --sweeps 12 --quiet
+mkdir "$work/long"
+for i in $(seq 0 59); do
+  phase=$((i % 22))
+  ln -s "$work/drive/velodyne/$(printf %06d $((phase < 12 ? phase : 22 - phase))).bin" "$work/long/$(printf %06d "$i").bin"
+done
+cat >"$work/plan.yaml" <<'YAML'
+sequences:
+  - { name: drive, path: drive }
+  - { name: long, path: long }
+configurations:
+  - name: full
+  - name: A
+    set: [coarse.enabled=false]
+YAML
+# Ends the shell that calls it: start_bench … & is the command itself, whose number is $!.
+start_bench() {
+  local out="$1"
+  shift
+  exec "$rilo" bench "$work/plan.yaml" --threads 1 --out "$work/$out" "$@" >"$work/$out.out" 2>"$work/$out.err"
+}
+bench() { (start_bench "$@"); }
+bench local --jobs 2
+
+echo "== a plain run, two tasks at a time"
+bench plain --on slurm --jobs 2 || fail "exit code $?"
+same_tables plain
+
+echo "== tasks that are killed, cancelled and out of time are submitted again"
+start_bench broken --on slurm --retries 1 &
+driver=$!
+wait_for task_of broken 0
+task_of broken 0 | head -n 1 | xargs kill -9
+wait_for task_of broken 1
+scancel "$(array_of 1)"
+wait_for task_of broken 2
+task_of broken 2 | xargs kill -STOP
+scontrol update JobId="$(array_of 2)" EndTime="$(date -d '+1 second' +%Y-%m-%dT%H:%M:%S)"
+wait "$driver" || fail "exit code $?"
+driver=""
+same_tables broken
+grep -q "JobState=TIMEOUT" "$work/slurm/jobs.txt" || fail "no task ran out of time"
+for cell in 0 1 2; do [ "$(tasks_had broken "$cell")" -eq 2 ] || fail "cell $cell was not submitted twice"; done
+[ "$(tasks_had broken 3)" -eq 1 ] || fail "cell 3 was submitted again"
+
+echo "== without retries the one that was killed is listed; the same command again runs it alone"
+start_bench listed --on slurm &
+driver=$!
+wait_for task_of listed 3
+task_of listed 3 | head -n 1 | xargs kill -9
+if wait "$driver"; then fail "a killed task went unnoticed"; fi
+driver=""
+grep -q "1 of 4 cells failed" "$work/listed.err" || fail "the failure is not said"
+grep -q "failed: long × A: Slurm ended its task" "$work/listed.out" || fail "the failure is not listed"
+bench listed --on slurm || fail "exit code $?"
+same_tables listed
+[ "$(tasks_had listed 0)" -eq 1 ] || fail "a finished cell was run again"
+
+echo "== a driver that is killed: the tasks go on, the same command waits for them"
+start_bench adopted --on slurm &
+driver=$!
+wait_for task_of adopted 2
+kill -9 "$driver"
+wait "$driver" 2>/dev/null || true
+driver=""
+bench adopted --on slurm || fail "exit code $?"
+same_tables adopted
+for cell in 0 1 2 3; do [ "$(tasks_had adopted "$cell")" -eq 1 ] || fail "cell $cell was submitted twice"; done
+echo "all as expected"

@@ -68,6 +68,7 @@ class BenchRunner {
     if (!order_.run.quiet && open.size() < jobs_.size()) {
       std::cerr << fmt::format("{} of {} cells are finished already\n", finished_jobs(), jobs_.size());
     }
+    if (!records_.empty()) write();
     progress_.emplace("cells", open.size(), order_.run.quiet);
     if (!open.empty()) run_all(open);
     progress_->finish();

@@ -123,7 +123,7 @@ class BenchRunner {
     const BenchCell& cell = record.cells.front();
     progress_->say(fmt::format("[{}/{}] {}: {}", finished_jobs(), jobs_.size(), job.name(), outcome_of(cell)));
     show_progress();
-    if (Clock::now() - written_ > kShareOfWriting * writing_took_) write();
+    if (Clock::now() - written_ >= kShareOfWriting * writing_took_) write();
   }
 
   void show_progress() {
@@ -225,7 +225,7 @@ class BenchRunner {
   std::set<std::string> running_;
   std::size_t done_ = 0;  // by this process
   int signal_ = 0;
-  Clock::time_point written_ = Clock::time_point::min() + std::chrono::hours(1);
+  Clock::time_point written_{};  // long ago
   Clock::duration writing_took_{};
 };
 

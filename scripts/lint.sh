@@ -19,10 +19,10 @@ xargs -0 clang-format --dry-run -Werror --style=file <build/.lint-files || faile
 
 echo "lint: clang-tidy"
 # Most of its time goes into the headers, so that eight sources are read together (a unity build), unless some are
-# named. The harnesses in fuzz/ are built by Clang alone, and are not in these compile commands.
+# named.
 if [ $# -gt 0 ]; then
   cmake --preset lint --log-level=WARNING -DCMAKE_UNITY_BUILD=OFF >/dev/null
-  grep -z '\.cpp$' build/.lint-files | grep -zv '^tests/consumer/\|^fuzz/' >build/.tidy-files || true
+  grep -z '\.cpp$' build/.lint-files | grep -zv '^tests/consumer/' >build/.tidy-files || true
 else
   cmake --preset lint --log-level=WARNING >/dev/null
   sed -n 's/^ *"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | tr '\n' '\0' >build/.tidy-files

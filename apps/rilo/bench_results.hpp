@@ -14,11 +14,11 @@ namespace rilo::cli {
 
 /// A number of a cell.
 struct BenchFigure {
-  const char* key;        ///< in results.json and results.csv
-  const char* title;      ///< in tables
-  const char* pointer;    ///< where it stands in BenchCell::metrics
-  int digits;             ///< behind the point, in tables
-  bool measured = false;  ///< of this machine and moment: time, memory
+  const char* key = "";      ///< in results.json and results.csv
+  const char* title = "";    ///< in tables
+  const char* pointer = "";  ///< where it stands in BenchCell::metrics
+  int digits = 0;            ///< behind the point, in tables
+  bool measured = false;     ///< of this machine and moment: time, memory
 };
 
 /// All of them, accuracy first.

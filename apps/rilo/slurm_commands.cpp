@@ -138,7 +138,7 @@ std::string submit_array(const std::filesystem::path& script, const std::string&
   const std::size_t end = result.out.find_last_not_of('\n');
   const std::string last = end == std::string::npos ? "" : result.out.substr(0, end + 1);
   const std::string line = last.substr(last.find_last_of('\n') + 1);
-  const std::string number = line.substr(0, line.find(';'));
+  std::string number = line.substr(0, line.find(';'));
   if (result.code != 0 || !number_of(number)) {
     throw CommandError(kUsage, "--on slurm: sbatch refused the jobs: " + last);
   }
@@ -148,7 +148,7 @@ std::string submit_array(const std::filesystem::path& script, const std::string&
 std::string end_of_task(const SlurmTask& task) {
   const ProgramResult accounting =
       run_program({"sacct", "--noheader", "--parsable2", "--allocations", "--format=State", "--jobs=" + task.id()});
-  const std::string state = trimmed_line(accounting.out);
+  std::string state = trimmed_line(accounting.out);
   if (accounting.code == 0 && !state.empty() && state.find("disabled") == std::string::npos) return state;
   const ProgramResult controller = run_program({"scontrol", "--oneliner", "show", "job", task.id()});
   if (controller.code != 0) return "UNKNOWN";

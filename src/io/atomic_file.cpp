@@ -109,6 +109,10 @@ void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) {
   write_at(offset, bytes);
 }
 
+fs::path AtomicFile::temporary() const {
+  return temporary_.empty() ? fs::path(fmt::format("/proc/self/fd/{}", descriptor_)) : temporary_;
+}
+
 void AtomicFile::commit() {
   flush();
   if (::fsync(descriptor_) != 0) fail("cannot write", errno);
@@ -121,7 +125,7 @@ void AtomicFile::commit() {
 
 // A link cannot take the place of another file, a rename can.
 void AtomicFile::give_name() {
-  const std::string file = fmt::format("/proc/self/fd/{}", descriptor_);
+  const fs::path file = temporary();
   for (;;) {
     const fs::path name = temporary_name(target_);
     if (::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {

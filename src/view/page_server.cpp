@@ -26,7 +26,7 @@ constexpr auto kPatience = std::chrono::seconds(10);
 
 asio::ip::address numeric(const std::string& address) {
   boost::system::error_code error;
-  const auto parsed = asio::ip::make_address(address, error);
+  auto parsed = asio::ip::make_address(address, error);
   if (error) {
     throw IoError(
         {"--view-address", "", "'" + address + "'", "a numeric address such as 127.0.0.1, 0.0.0.0 or ::1", ""});

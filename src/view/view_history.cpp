@@ -45,9 +45,14 @@ bool has_place(OdometryStatus status) { return status != OdometryStatus::kLost &
 }  // namespace
 
 void SweepStore::add(std::uint32_t number, Frame frame) {
+  if (!newest_stays_) {
+    bytes_ -= frames_.rbegin()->second->size();
+    frames_.erase(std::prev(frames_.end()));
+  }
   bytes_ += frame->size();
   frames_.insert_or_assign(number, std::move(frame));
-  if (bytes_ > max_bytes_) thin();
+  if (bytes_ > max_bytes_ && frames_.size() > 2) thin();
+  newest_stays_ = seen_++ % every_ == 0;
 }
 
 Frame SweepStore::at(std::uint32_t number) const {
@@ -58,6 +63,7 @@ Frame SweepStore::at(std::uint32_t number) const {
 }
 
 void SweepStore::thin() {
+  every_ *= 2;
   bool goes = false;
   for (auto frame = frames_.begin(); frame != std::prev(frames_.end());) {
     if (goes) bytes_ -= frame->second->size();

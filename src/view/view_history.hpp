@@ -15,8 +15,8 @@
 
 namespace rilo::view {
 
-/// Frames of single sweeps, so many bytes of them at most: beyond that every second one goes, so that the whole run
-/// stays there to look back at. The first and the newest stay.
+/// Frames of single sweeps, so many bytes of them at most: beyond that every second one goes, and of those to come, so
+/// that the whole run stays there to look back at, evenly. The first and the newest stay.
 class SweepStore {
  public:
   explicit SweepStore(std::size_t max_bytes) : max_bytes_(max_bytes) {}
@@ -35,6 +35,9 @@ class SweepStore {
 
   std::size_t max_bytes_;
   std::size_t bytes_ = 0;
+  std::size_t seen_ = 0;
+  std::size_t every_ = 1;     // one of so many stays
+  bool newest_stays_ = true;  // when the next one comes
   std::map<std::uint32_t, Frame> frames_;
 };
 

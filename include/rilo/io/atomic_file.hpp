@@ -29,8 +29,9 @@ class AtomicFile {
   /// Flushes, fsyncs, renames. Nothing may be written afterwards.
   void commit();
 
-  /// The temporary file, for a library that writes files by itself: it may truncate and write it, not replace it.
-  const std::filesystem::path& temporary() const { return temporary_; }
+  /// A path to the temporary file, for a library that writes files by itself: it may truncate and write it, not replace
+  /// it, and must be done before commit().
+  std::filesystem::path temporary() const;
 
   const std::filesystem::path& target() const { return target_; }
 

@@ -40,7 +40,7 @@ std::string name_of(const Key& key) { return key.first + " × " + key.second; }
 }  // namespace
 
 nlohmann::json read_baseline(const std::filesystem::path& file) {
-  const nlohmann::json json = read_json_object(file, kExpected, "Check the path after --baseline");
+  nlohmann::json json = read_json_object(file, kExpected, "Check the path after --baseline");
   if (json.value("rilo_bench", nlohmann::json()) != 1 || !json.contains("cells") || !json["cells"].is_array()) {
     throw IoError(
         {file, "", "JSON of another kind", std::string(kExpected) + " (\"rilo_bench\": 1 and a list cells)", ""});

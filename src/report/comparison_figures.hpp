@@ -15,7 +15,7 @@ namespace rilo {
 /// A number of a run; the smaller the better.
 struct ComparisonFigure {
   ExperimentFigure what;  ///< keys as in results.json of a benchmark
-  std::optional<double> (*of)(const RunReport& run);
+  std::optional<double> (*of)(const RunReport& run) = nullptr;
 };
 
 /// Accuracy first, then effort.

@@ -120,9 +120,10 @@ TEST(Faults, InterruptedWhileResultsAreWrittenItStillWritesThem) {
 TEST(Faults, ALimitOnTheSizeOfFilesKeepsTheLinesBefore) {
   const TempDir folder;
   const auto out = folder / "out";
+  const fs::path& drive = shared_drive();  // made before the limit holds
   {
     const Limit limit(RLIMIT_FSIZE, 2000);
-    rilo_fails(4, {"run", shared_drive(), "--out", out, "--quiet"}, {"cannot write", "too large"});
+    rilo_fails(4, {"run", drive, "--out", out, "--quiet"}, {"cannot write", "too large"});
   }
   const auto kept = read_kitti_poses(out / "poses_lidar.partial.txt");
   EXPECT_GE(kept.size(), 3U);

@@ -20,17 +20,17 @@ std::string content(const fs::path& file) {
 
 /// Folder of a run over the shared drive, made once a process; for reading only.
 const fs::path& shared_run() {
-  static const TempDir folder;
-  static const fs::path run = [] {
-    fs::path out = folder / "full";
+  static const TempDir kFolder;
+  static const fs::path kRun = [] {
+    fs::path out = kFolder / "full";
     rilo_succeeds({"run", shared_drive(), "--out", out, "--map", out / "map.ply", "--quiet"});
     return out;
   }();
-  return run;
+  return kRun;
 }
 
 fs::path copy_of_run(const TempDir& folder, const std::string& name) {
-  const fs::path copy = folder / name;
+  fs::path copy = folder / name;
   fs::copy(shared_run(), copy, fs::copy_options::recursive);
   return copy;
 }

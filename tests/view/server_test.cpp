@@ -126,7 +126,7 @@ class Page {
   /// Frames until one of `type`; that one.
   Bytes until(FrameType type) {
     while (true) {
-      const Bytes frame = read();
+      Bytes frame = read();
       if (frame.empty() || frame[0] == static_cast<std::uint8_t>(type)) return frame;
     }
   }

@@ -112,7 +112,7 @@ class Viewer::Impl {
     std::string host = address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
     if (address.is_unspecified()) {
       std::string name(256, '\0');
-      if (gethostname(name.data(), name.size() - 1) == 0) host = std::string(name.data());  // up to its end
+      if (gethostname(name.data(), name.size() - 1) == 0) host = name.substr(0, name.find('\0'));
     }
     const std::string& token = hub_.access.token();
     return fmt::format("http://{}:{}/{}", host, endpoint.port(), token.empty() ? "" : "?token=" + token);

@@ -10,6 +10,7 @@ import pytest
 for module in ("rospy", "rosbag", "roslaunch", "tf2_msgs", "nav_msgs", "diagnostic_msgs", "std_srvs"):
     pytest.importorskip(module)
 
+import rosbag
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Pose, PoseWithCovarianceStamped, TransformStamped
@@ -55,7 +56,7 @@ def drive(tmp_path_factory):
 
 def run_offline(bag, out, *arguments):
     """Stamps in ns and poses."""
-    rilo("run", bag, "--out", out, "--no-report", "--quiet", *arguments)
+    rilo("run", bag, "--one-pass", "--out", out, "--no-report", "--quiet", *arguments)
     stamps = [line.split()[0].replace(".", "") for line in open(out / "trajectory.tum") if line[0] != "#"]
     rows = np.loadtxt(out / "poses_lidar.txt").reshape(-1, 3, 4)
     poses = np.zeros((len(rows), 4, 4))
@@ -132,6 +133,18 @@ def extrinsic_matrix():
                     @ np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]]))
     pose[:3, 3] = x, y, z
     return pose
+
+
+def test_the_bag_that_a_run_leaves_is_read_by_ros(drive):
+    file = drive.folder / "results" / "trajectory.bag"
+    if not file.exists():
+        pytest.skip("built without librosbag-storage")
+    with rosbag.Bag(str(file)) as bag:
+        messages = [message for _, message, _ in bag.read_messages(["/odometry"])]
+        transforms = [message.transforms[0] for _, message, _ in bag.read_messages(["/tf"])]
+    assert [m.header.stamp.to_nsec() for m in messages] == drive.offline.stamps
+    assert [t.header.stamp.to_nsec() for t in transforms] == drive.offline.stamps
+    np.testing.assert_allclose(poses_of(messages), drive.offline.poses, rtol=0, atol=1e-9)
 
 
 def test_a_played_bag_gives_the_trajectory_of_an_offline_run(topics, drive):

@@ -10,13 +10,13 @@ namespace fs = std::filesystem;
 
 // Of this process, so that several may run.
 const fs::path& folder() {
-  static const fs::path path = [] {
+  static const fs::path kPath = [] {
     fs::path made = fs::temp_directory_path() / ("rilo-fuzz-" + std::to_string(::getpid()));
     fs::create_directories(made);
     std::atexit([] { fs::remove_all(folder()); });
     return made;
   }();
-  return path;
+  return kPath;
 }
 
 }  // namespace

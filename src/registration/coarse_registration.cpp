@@ -15,13 +15,15 @@ namespace {
 constexpr double kRotationEpsilonRad = 5e-4;
 constexpr double kTranslationEpsilonM = 5e-3;
 constexpr std::size_t kLeastPairs = 20;
+// Sparse clouds: most of a search among smaller cells would be looking into empty ones.
+constexpr double kCellVoxels = 4.0;
 }  // namespace
 
 DistributionCloud make_distribution_cloud(const std::vector<Eigen::Vector3f>& points,
                                           const CoarseRegistrationConfig& config) {
   PointGrid all(config.density_radius_m);
   all.build(points);
-  DistributionCloud cloud(2.0 * config.voxel_m);
+  DistributionCloud cloud(kCellVoxels * config.voxel_m);
   cloud.grid.build(density_filter(all, config.density_radius_m, config.density_percentile));
   cloud.covariances = point_covariances(cloud.grid, config.neighbours, 4.0 * config.density_radius_m);
   return cloud;
@@ -39,7 +41,9 @@ CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& t
     for (std::size_t m = first; m < last; ++m) {
       const Eigen::Vector3d p = T_target_source * points[m].cast<double>();
       Neighbour n;
-      if (!target.grid.nearest(p.cast<float>(), config.max_correspondence_m, n)) {
+      const bool found = target.grid.nearest(p.cast<float>(), config.max_correspondence_m, n, matches[m]);
+      matches[m] = n.index;
+      if (!found) {
         continue;
       }
       const Eigen::Vector3d e = target.grid.points()[n.index].cast<double>() - p;  // e_m = q_n − p'_m

@@ -46,10 +46,12 @@ class InitialPoseStage {
   InitialPoseStage(const InitialPoseConfig& config, const CoarseRegistrationConfig& coarse)
       : config_(config), coarse_(coarse) {}
 
-  /// Chooses the initial pose of `source`.
+  /// Chooses the initial pose of a sweep.
+  /// @param source the sweep: points (m, sensor frame) with their times.
   /// @param predicted T_pred and the velocity during the sweep.
   /// @param previous T_{i−1}.
   /// @param dt_s time since `previous`.
+  /// @param map the local map, which judges the candidates.
   /// @param in_doubt the prediction must not be trusted whatever its score (start, after a loss).
   /// @param time_left asked before each start of the coarse stage whether there is time for it; empty: always.
   InitialPose choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous, double dt_s,

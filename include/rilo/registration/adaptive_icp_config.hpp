@@ -7,7 +7,7 @@ struct AdaptiveIcpConfig {
   bool adaptive = true;       ///< false: ablation B, unit weights within a fixed gate instead of weights from σ_th
   double fixed_gate_m = 0.5;  ///< residuals beyond it are no correspondences when adaptive is off
   double gate = 3.0;          ///< residuals beyond gate · σ_th are no correspondences
-  int max_iterations = 30;
+  int max_iterations = 24;
   int coarse_stride = 4;                ///< every n-th point until it converges, then all points
   double rematch_m = 0.005;             ///< planes are looked up again once the sweep has moved so far; 0: always
   double damping = 1e-9;                ///< λ, relative to the largest diagonal element

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes the reference of the public headers to build/docs/html; wrong names in comments are errors.
+# Writes the site of documents and reference of the public headers to build/docs/html; wrong names and links are errors.
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -7,4 +7,4 @@ scripts/setup.sh --docs
 scripts/check_links.sh
 mkdir -p build/docs
 doxygen docs/Doxyfile
-echo "Reference: $PWD/build/docs/html/index.html"
+echo "Site: $PWD/build/docs/html/index.html"

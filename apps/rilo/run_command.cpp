@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,8 @@
 namespace rilo::cli {
 
 namespace {
+
+constexpr double kShareOfIdleProcessor = 0.5;
 
 constexpr const char* kRunFooter =
     R"(DATA is a recording (ROS 1 bags, rosbag2, MCAP), a pcap of a Velodyne or an Ouster, a KITTI sequence or raw drive, a
@@ -70,6 +73,9 @@ std::unique_ptr<LiveView> open_view(const RunFlags& flags, const ScanSource& sou
     options.port = parse_port(flags.view);
     if (!options.port) throw CommandError(kUsage, "--view=" + flags.view + ": expected a port, 0 … 65535");
   }
+  // A processor that the odometry leaves alone may be used: half of it, there is reading and the system as well.
+  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  if (config.threads > 0 && config.threads < processors) options.share = kShareOfIdleProcessor;
   ViewInfo info = view_info(flags.data, config);
   info.sweeps = sweeps_to_do(flags, source);
   return std::make_unique<LiveView>(info, options,

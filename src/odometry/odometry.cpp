@@ -23,6 +23,7 @@
 #include "rilo/registration/adaptive_icp.hpp"
 #include "rilo/registration/beam_calibration.hpp"
 #include "rilo/registration/elevation_offset.hpp"
+#include "rilo/registration/uneven_motion.hpp"
 
 namespace rilo {
 
@@ -32,6 +33,7 @@ constexpr std::size_t kStartSweeps = 3;                 // the prediction means 
 constexpr std::size_t kYoungSweeps = 5;
 constexpr int kFirstSweepRounds = 2;
 constexpr std::size_t kElevationStride = 4;
+constexpr std::size_t kUnevenStride = 4;
 
 std::size_t workers(const OdometryConfig& config) {
   const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
@@ -258,7 +260,9 @@ void Odometry::Impl::accept(const PreparedSweep& prepared, const IcpResult& icp,
                             double score, SweepResult& result) {
   const SE3 previous = state_.T_odom_lidar;
   const bool degenerate = result.status == OdometryStatus::kDegenerate;
-  result.covariance = pose_covariance_.of(icp, degenerate, state_.twist, prepared.source.timed() ? dt_s : 0.0);
+  const Vector6d uneven = uneven_motion(prepared.source, map_, icp, threshold_.sigma_th_m(), config_.icp,
+                                        PoseCovariance::evidence_share(config_.icp), kUnevenStride);
+  result.covariance = pose_covariance_.of(icp, degenerate, state_.twist, prepared.source.timed() ? dt_s : 0.0, uneven);
   state_ = icp.state;
   state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
   const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());

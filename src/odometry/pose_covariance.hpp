@@ -7,19 +7,25 @@
 namespace rilo {
 
 /// Covariance of a pose given the one before: the evidence of the sweep and the motion prior, and what the sweep's
-/// points are off by because the velocity changed while they were measured. Learns how the sensor is moved.
+/// points are off by because the velocity changed while they were measured, steadily or to and fro. Learns how the sensor is moved.
 class PoseCovariance {
  public:
   /// Of the pose of `icp`, right perturbation, [rad; m].
   /// @param degenerate a direction is not observed.
   /// @param before velocity during the sweep before [rad/s; m/s].
   /// @param sweep_s how long the points were measured; 0 for points that were brought to one instant before.
-  Matrix6d of(const IcpResult& icp, bool degenerate, const Vector6d& before, double sweep_s);
+  /// @param uneven what uneven_motion() says of the sweep [rad²; m²].
+  Matrix6d of(const IcpResult& icp, bool degenerate, const Vector6d& before, double sweep_s, const Vector6d& uneven);
+
+  /// Share of the residuals that count as independent where a direction is observed.
+  static double evidence_share(const AdaptiveIcpConfig& config);
 
   void reset() { *this = {}; }
 
  private:
-  Vector6d squared_change_ = Vector6d::Zero();  // of the velocity from sweep to sweep, mean of the last ones
+  // Means of the last sweeps: change of the velocity from one to the next, and scatter of motion within one.
+  Vector6d squared_change_ = Vector6d::Zero();
+  Vector6d uneven_ = Vector6d::Zero();
 };
 
 }  // namespace rilo

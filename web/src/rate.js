@@ -1,5 +1,7 @@
 // Frames per second, and how many points they allow.
 const GOAL_MS = 1000 / 30;
+// Fewer would not make a frame much faster, and would not be a map any more.
+const LEAST_POINTS = 60000;
 
 const thousands = (count) => (count >= 1e6 ? `${(count / 1e6).toFixed(2)} M` : `${Math.round(count / 1000)} k`);
 
@@ -28,9 +30,11 @@ export class Rate {
   drew(now, points, all) {
     this.drawn = points;
     if (this.last) {
-      this.usual += 0.1 * (Math.min(now - this.last, 1000) - this.usual);
-      if (this.usual > GOAL_MS * 1.05) this.fitting = Math.max(0.02, this.fitting * 0.97);
-      else if (this.usual < GOAL_MS * 0.8) this.fitting = Math.min(1, this.fitting * 1.02);
+      this.usual += 0.2 * (Math.min(now - this.last, 1000) - this.usual);
+      // Far from the goal in large steps: a slow machine must not take a minute to get there.
+      if (this.usual > GOAL_MS * 1.05) this.fitting *= Math.max(0.8, (GOAL_MS / this.usual) ** 0.25);
+      else if (this.usual < GOAL_MS * 0.8) this.fitting *= 1.02;
+      this.fitting = Math.min(1, Math.max(this.fitting, LEAST_POINTS / Math.max(all, 1)));
     }
     this.last = now;
     if (now - (this.told ?? -1e9) < 500) return;

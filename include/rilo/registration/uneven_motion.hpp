@@ -1,0 +1,21 @@
+// What a sweep's residuals say of motion that a constant velocity during the sweep does not follow.
+#pragma once
+
+#include <cstddef>
+
+#include "rilo/cloud/timed_cloud.hpp"
+#include "rilo/map/local_map.hpp"
+#include "rilo/registration/adaptive_icp.hpp"
+
+namespace rilo {
+
+/// The sweep is cut into short stretches of time, and each is registered on its own, by one step from the registered
+/// pose. How far these poses scatter about it beyond what their own noise explains, squared: [rad²; m²], axes of the
+/// sensor. Zero for a source without times, and along what a stretch does not see.
+/// @param sigma_th_m scale of the weights, as in the registration.
+/// @param noise_share share of the residuals that count as independent.
+/// @param stride only every `stride`-th point is looked at.
+Vector6d uneven_motion(const TimedCloud& source, const LocalMap& map, const IcpResult& icp, double sigma_th_m,
+                       const AdaptiveIcpConfig& config, double noise_share, std::size_t stride);
+
+}  // namespace rilo

@@ -1,0 +1,83 @@
+"""A long run of the node: a drive there and back as often as it takes, and what its process holds on the way.
+
+    RILO_NODE=PREFIX/lib/rilo_ros/rilo_node python3 soak_node.py DRIVE [SWEEPS [EVERY]]
+
+DRIVE is a folder made by `rilo simulate`, with or without times. A sweep is sent when the one but one before it has its
+pose, so that the node is never idle and drops nothing. Prints a table: milliseconds a sweep (everything, transport
+included), resident memory, open files, threads. The path that is published grows by a pose a sweep, 250 bytes each.
+"""
+
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+import rospy
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import PointCloud2
+
+import ros_bag
+from ros_system import running_node, start_roscore, stop, wait_for
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
+from process_watch import growth, state_of, table  # noqa: E402
+
+
+def sweeps_there_and_back(drive):
+    """Messages without end; the sweeps are motion-compensated, as if each were taken at one instant."""
+    files = sorted(Path(drive, "velodyne").glob("*.bin"))
+    index = 0
+    while True:
+        place = index % (2 * len(files) - 2)
+        columns = np.fromfile(files[min(place, 2 * len(files) - 2 - place)], "<f4").reshape(-1, 4)
+        points = np.zeros(len(columns), ros_bag.POINT)
+        for column, name in enumerate(("x", "y", "z", "intensity")):
+            points[name] = columns[:, column]
+        yield ros_bag.cloud(points, ros_bag.FIRST_STAMP_NS + index * 100_000_000)
+        index += 1
+
+
+def soak(drive, sweeps, every):
+    rospy.init_node("soak", disable_signals=True)
+    done = [0]
+
+    def count(_):
+        done[0] += 1
+
+    odometry = rospy.Subscriber("/odometry", Odometry, count, queue_size=100)
+    publisher = rospy.Publisher("/points", PointCloud2, queue_size=4)
+    rows = []
+    with running_node({"queue": 0, "look_ahead": 0, "point_times": "none"}) as node:
+        wait_for(lambda: publisher.get_num_connections() > 0 and odometry.get_num_connections() > 0, "the node")
+        source = sweeps_there_and_back(drive)
+        last = time.monotonic()
+        for sent in range(1, sweeps + 1):
+            publisher.publish(next(source))
+            wait_for(lambda sent=sent: done[0] >= sent - 2, f"the pose of sweep {sent - 2}")
+            if sent % every == 0:
+                now = time.monotonic()
+                rows.append((sent, (now - last) * 1e3 / every, state_of(node.pid)))
+                print(list(table(rows))[-1], flush=True)
+                last = now
+        wait_for(lambda: done[0] >= sweeps, "the last pose")
+    return rows
+
+
+def main():
+    sweeps = int(sys.argv[2]) if len(sys.argv) > 2 else 20000
+    every = int(sys.argv[3]) if len(sys.argv) > 3 else 500
+    with tempfile.TemporaryDirectory() as name:
+        core = start_roscore(Path(name))
+        try:
+            rows = soak(sys.argv[1], sweeps, every)
+        finally:
+            rospy.signal_shutdown("done")
+            stop(core)
+    memory, files, threads = (growth(rows, lambda row, i=i: row[2][i]) for i in range(3))
+    print(f"last tenth against the second: {growth(rows, lambda row: row[1]):+.1f} ms, {memory:+.1f} MB, "
+          f"{files:+.1f} files, {threads:+.1f} threads")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# Everything that checks the project, one phase after the other, with a summary at the end. A phase that fails does not
+# keep the next ones from running; the exit code is 1 if one did. Logs: build/check/PHASE.log.
+#
+#   scripts/check.sh                     all phases, several hours
+#   scripts/check.sh test lint           these alone
+#   scripts/check.sh --stop test lint    ends at the first that fails
+#
+#   test            all tests, optimised build
+#   lint            clang-format, clang-tidy, shellcheck, links, paths
+#   docs            the site of documents and reference; wrong names and links are errors
+#   sanitize        all tests under AddressSanitizer and UBSan
+#   sanitize-short  the same without long drives and most tests that run the whole command
+#   threads         tests of what runs in several threads under ThreadSanitizer: the stages, sources, queues, the viewer
+#   fuzz            every parser, RILO_FUZZ_SECONDS (60) each
+#   coverage        lines of the core that its tests reach, at least 90 %
+#   instructions    instructions a sweep, against benchmarks/instructions.txt
+# shellcheck source-path=SCRIPTDIR
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+phases=(test lint docs sanitize threads fuzz coverage instructions)
+
+# Long drives, and tests that run the whole command many times over code that others run, too, take half an hour of
+# sanitizers.
+long='Elevation.(AnErrorIsFound|ASensorWithoutError)|BeamCalibration.AWorseUnit|Covariance'
+commands='Bench(Command|Resume|PaperCommand)|(Quality|Eval|Report)Command|RunFlags|StartOver|Faults|InterruptedRun'
+# What has threads of its own, and what runs in oneTBB's.
+threaded='Pipeline|Preprocess|LocalMap|CoarseRegistration|AdaptiveIcp|PrefetchSource|Live(Source|Queue)|View(Server|History)'
+
+run_phase() {
+  case "$1" in
+    test) scripts/test.sh ;;
+    lint) scripts/lint.sh ;;
+    docs) scripts/docs.sh ;;
+    sanitize) scripts/sanitize.sh ;;
+    sanitize-short)
+      scripts/sanitize.sh --exclude-regex "^($long|$commands|consumer|view_page|slurm_bench)" ;;
+    threads) PRESET=tsan scripts/sanitize.sh --tests-regex "$threaded" --exclude-regex "^($long|$commands|view_page)" ;;
+    fuzz) scripts/fuzz.sh "${RILO_FUZZ_SECONDS:-60}" ;;
+    coverage) scripts/coverage.sh ;;
+    instructions) scripts/instructions.sh ;;
+    *) die "unknown phase '$1'; known: ${phases[*]} sanitize-short" ;;
+  esac
+}
+
+# The line of a log that says how it went.
+verdict() {
+  grep -hE 'tests passed, .* tests failed out of|^lint: clean|^lint.sh: failed|^Site: |nothing found$|^lines: |^committed: ' \
+    "$1" | tail -n 1 || true
+}
+
+stop=false
+chosen=()
+for argument in "$@"; do
+  case "$argument" in
+    --stop) stop=true ;;
+    -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
+    -*) die "unknown option '$argument'; known: --stop" ;;
+    *) chosen+=("$argument") ;;
+  esac
+done
+[ ${#chosen[@]} -eq 0 ] || phases=("${chosen[@]}")
+
+mkdir -p build/check
+summary=()
+failed=0
+for phase in "${phases[@]}"; do
+  log="build/check/$phase.log"
+  echo "=== $phase"
+  start=$SECONDS
+  result=passed
+  (run_phase "$phase") 2>&1 | tee "$log" || {
+    result=FAILED
+    failed=1
+  }
+  summary+=("$(printf '%-15s %-7s %5d s  %s' "$phase" "$result" $((SECONDS - start)) "$(verdict "$log")")")
+  echo "=== $phase: $result after $((SECONDS - start)) s"
+  if $stop && [ "$failed" -ne 0 ]; then
+    break
+  fi
+done
+
+echo
+printf '%s\n' "${summary[@]}"
+exit "$failed"

@@ -31,6 +31,8 @@ def filtered(path):
             if line.startswith("```"):
                 in_code = not in_code
             if not in_code:
+                # Doxygen knows no bold within a word.
+                line = re.sub(r"\*\*(\w+)\*\*(?=\w)", r"<b>\1</b>", line)
                 line = re.sub(r"\]\(([\w./-]*\.md)?#([\w-]+)\)", link, line)
                 heading = re.match(r"(#{2,6}) (.*)", line)
                 if heading:

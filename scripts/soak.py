@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A long run of `rilo run`: a drive there and back as often as it takes, and what the process holds on the way.
 
-usage: soak.py RILO DRIVE OUT [--sweeps 20000] [--every 500]
+usage: soak.py RILO DRIVE OUT [--sweeps 20000] [--every 500] [--threads 0]
 
 DRIVE is a folder of the KITTI layout without times (rilo simulate --deskewed, say); OUT gets links to its sweeps and the
 results. Prints a table: milliseconds a sweep, resident memory, open files and threads; exit code 1 if the last tenth of
@@ -61,11 +61,13 @@ def main():
     parser.add_argument("out", type=Path)
     parser.add_argument("--sweeps", type=int, default=20000)
     parser.add_argument("--every", type=int, default=500)
+    parser.add_argument("--threads", default="0", help="of the odometry; 0: all")
     arguments = parser.parse_args()
 
     data, results = arguments.out / "data", arguments.out / "results"
     link_there_and_back(arguments.drive, data, arguments.sweeps)
-    process = subprocess.Popen([arguments.rilo, "run", data, "--out", results, "--quiet", "--no-report", "--one-pass"],
+    process = subprocess.Popen([arguments.rilo, "run", data, "--out", results, "--threads", arguments.threads, "--quiet",
+                                "--no-report", "--one-pass"],
                                env={**os.environ, "LC_ALL": "C"})
     states = watch(process, results / "poses_lidar.partial.txt", arguments.every)
     if process.returncode != 0:

@@ -4,7 +4,8 @@
 
 DRIVE is a folder made by `rilo simulate`, with or without times. A sweep is sent when the one but one before it has its
 pose, so that the node is never idle and drops nothing. Prints a table: milliseconds a sweep (everything, transport
-included), resident memory, open files, threads. The path that is published grows by a pose a sweep, 250 bytes each.
+included), resident memory, open files, threads. No map is kept for save_map, which grows with every place; the path that
+is published grows by a pose a sweep, about 250 bytes.
 """
 
 import sys
@@ -48,7 +49,7 @@ def soak(drive, sweeps, every):
     odometry = rospy.Subscriber("/odometry", Odometry, count, queue_size=100)
     publisher = rospy.Publisher("/points", PointCloud2, queue_size=4)
     rows = []
-    with running_node({"queue": 0, "look_ahead": 0, "point_times": "none"}) as node:
+    with running_node({"queue": 0, "look_ahead": 0, "point_times": "none", "map_voxel": 0}) as node:
         wait_for(lambda: publisher.get_num_connections() > 0 and odometry.get_num_connections() > 0, "the node")
         source = sweeps_there_and_back(drive)
         last = time.monotonic()

@@ -7,7 +7,8 @@
 namespace rilo {
 
 /// Covariance of a pose given the one before: the evidence of the sweep and the motion prior, and what the sweep's
-/// points are off by because the velocity changed while they were measured, steadily or to and fro. Learns how the sensor is moved.
+/// points are off by because the velocity changed while they were measured, steadily or to and fro. Learns how the
+/// sensor is moved.
 class PoseCovariance {
  public:
   /// Of the pose of `icp`, right perturbation, [rad; m].

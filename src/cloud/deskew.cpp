@@ -23,14 +23,21 @@ SweepMotion::SweepMotion(const Vector6d& twist, float begin_s, float end_s)
   }
 }
 
+SweepMotion SweepMotion::during(const TimedCloud& cloud, const Vector6d& twist) {
+  if (!cloud.timed()) {
+    return {twist, 0.0F, 0.0F};
+  }
+  const auto [begin, end] = std::minmax_element(cloud.offsets_s.begin(), cloud.offsets_s.end());
+  return {twist, *begin, *end};
+}
+
 void deskew(const TimedCloud& cloud, const Vector6d& twist, std::vector<Eigen::Vector3f>& out) {
   out.resize(cloud.size());
   if (!cloud.timed() || cloud.points.empty()) {
     out = cloud.points;
     return;
   }
-  const auto [begin, end] = std::minmax_element(cloud.offsets_s.begin(), cloud.offsets_s.end());
-  const SweepMotion motion(twist, *begin, *end);
+  const SweepMotion motion = SweepMotion::during(cloud, twist);
   for_fixed_chunks(cloud.size(), [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       out[i] = motion.compensate(cloud.points[i], cloud.offsets_s[i]);

@@ -1,12 +1,10 @@
 #include "rilo/registration/beam_calibration.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/LU>
 
-#include "cloud/fixed_chunks.hpp"
-#include "rilo/cloud/deskew.hpp"
+#include "registration/plane_residuals.hpp"
 
 namespace rilo {
 
@@ -31,26 +29,18 @@ void BeamCalibration::learn(const BeamSample& sample, const LocalMap& map, const
 
 void BeamCalibration::observe(const BeamSample& sample, const LocalMap& map, const IcpResult& icp, double sigma_th_m,
                               const AdaptiveIcpConfig& config) {
-  deskew(sample.cloud, icp.state.twist, points_);
-  observations_.assign(points_.size(), Observation{});
-  const Eigen::Matrix3d R = icp.state.T_odom_lidar.linear();
-  const Eigen::Vector3d t = icp.state.T_odom_lidar.translation();
-  const double sigma2 = sigma_th_m * sigma_th_m;
-  const double gate = config.gate * sigma_th_m;
-  for_fixed_chunks(points_.size(), [&](std::size_t /*chunk*/, std::size_t begin, std::size_t end) {
-    const auto point_at = [&](std::size_t i) -> Eigen::Vector3d { return R * points_[i].cast<double>() + t; };
-    map.visit(begin, end, point_at, [&](std::size_t i, const Eigen::Vector3d& world, const PlaneSpot& spot) {
-      const MapPlane plane = spot.grid->plane_at(spot);
-      const double e = plane.normal.dot(world - plane.point);
-      if (sample.beams[i] >= kBeams || std::abs(e) > gate) {
-        return;
-      }
-      const Eigen::Vector3d normal = R.transpose() * plane.normal;
-      observations_[i] = {{normal.dot(elevation_lever(points_[i]).cast<double>()),
-                           normal.dot(azimuth_lever(points_[i]).cast<double>())},
-                          e,
-                          sigma2 / (sigma2 + e * e)};
-    });
+  observations_.assign(sample.cloud.size(), Observation{});
+  const Eigen::Matrix3d to_sensor = icp.state.T_odom_lidar.linear().transpose();
+  const RegisteredSweep sweep{sample.cloud, icp.state, sigma_th_m, config.gate * sigma_th_m};
+  for_each_residual(sweep, map, [&](std::size_t /*chunk*/, const PlaneResidual& residual) {
+    if (sample.beams[residual.index] >= kBeams) {
+      return;
+    }
+    const Eigen::Vector3d normal = to_sensor * residual.plane.normal;
+    observations_[residual.index] = {{normal.dot(elevation_lever(residual.sensor).cast<double>()),
+                                      normal.dot(azimuth_lever(residual.sensor).cast<double>())},
+                                     residual.distance_m,
+                                     residual.weight};
   });
 }
 

@@ -6,8 +6,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "cloud/fixed_chunks.hpp"
-#include "rilo/cloud/deskew.hpp"
+#include "registration/plane_residuals.hpp"
 #include "rilo/cloud/elevation.hpp"
 #include "rilo/geometry/degrees.hpp"
 
@@ -45,46 +44,28 @@ struct Sums {
 ElevationInformation elevation_information(const TimedCloud& source, const LocalMap& map, const IcpResult& icp,
                                            double sigma_th_m, const AdaptiveIcpConfig& config, const RigidLever& last,
                                            std::size_t stride) {
-  std::vector<Eigen::Vector3f> points;
-  deskew(source, icp.state.twist, points);
   const Eigen::Matrix3d R = icp.state.T_odom_lidar.linear();
   const Eigen::Vector3d t = icp.state.T_odom_lidar.translation();
-  const double sigma2 = sigma_th_m * sigma_th_m;
-  const double gate = config.gate * sigma_th_m;
-  const std::size_t count = (points.size() + stride - 1) / stride;
-  std::vector<Sums> partial(chunk_count(count));
-  for_fixed_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    Sums& sum = partial[chunk];
-    const auto point_at = [&](std::size_t k) -> Eigen::Vector3d { return R * points[k * stride].cast<double>() + t; };
-    map.visit(begin, end, point_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
-      const std::size_t i = k * stride;
-      const MapPlane plane = spot.grid->plane_at(spot);
-      const double e = plane.normal.dot(world - plane.point);
-      if (std::abs(e) > gate) {
-        return;
-      }
-      const double w = sigma2 / (sigma2 + e * e);
-      // Relative to a sensor that goes on moving with δ as the last pose did; the whole plane moves, so that its own
-      // point counts.
-      const Eigen::Vector3d moves = R * elevation_lever(points[i]).cast<double>() + last.at(plane.point) -
-                                    spot.grid->elevation_lever_at(spot).cast<double>();
-      const double c = plane.normal.dot(moves);  // ∂e/∂δ
-      Vector6d J;
-      J << (world - t).cross(plane.normal), plane.normal;
-      sum.mixed.head<6>() += w * c * J;
-      if (source.timed() && config.refine_motion) {
-        sum.mixed.tail<6>() += (w * c * static_cast<double>(source.offsets_s[i])) * J;
-      }
-      sum.square += w * c * c;
-      sum.gradient -= w * c * e;
-      sum.weight += w;
-      sum.squared_error += w * e * e;
-    });
+  const bool refine = source.timed() && config.refine_motion;
+  const RegisteredSweep sweep{source, icp.state, sigma_th_m, config.gate * sigma_th_m, stride};
+  const auto total = sum_of_residuals<Sums>(sweep, map, [&](Sums& sum, const PlaneResidual& residual) {
+    const auto& [i, sensor, world, spot, plane, e, w] = residual;
+    // Relative to a sensor that goes on moving with δ as the last pose did; the whole plane moves, so that its own
+    // point counts.
+    const Eigen::Vector3d moves = R * elevation_lever(sensor).cast<double>() + last.at(plane.point) -
+                                  spot.grid->elevation_lever_at(spot).cast<double>();
+    const double c = plane.normal.dot(moves);  // ∂e/∂δ
+    Vector6d J;
+    J << (world - t).cross(plane.normal), plane.normal;
+    sum.mixed.head<6>() += w * c * J;
+    if (refine) {
+      sum.mixed.tail<6>() += (w * c * static_cast<double>(source.offsets_s[i])) * J;
+    }
+    sum.square += w * c * c;
+    sum.gradient -= w * c * e;
+    sum.weight += w;
+    sum.squared_error += w * e * e;
   });
-  Sums total;
-  for (const Sums& sum : partial) {
-    total += sum;
-  }
   ElevationInformation result;
   result.pose = {t, last.rotation, last.at(t)};
   if (!(total.weight > 0.0)) {

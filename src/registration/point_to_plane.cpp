@@ -12,15 +12,6 @@ namespace {
 
 constexpr std::size_t kNoiseStride = 8;  // a sample of the points tells the noise of the normals
 
-/// Tabulated motion over the span of the source's offsets.
-SweepMotion motion_of(const TimedCloud& source, const Vector6d& twist) {
-  if (source.offsets_s.empty()) {
-    return {twist, 0.0F, 0.0F};
-  }
-  const auto [begin, end] = std::minmax_element(source.offsets_s.begin(), source.offsets_s.end());
-  return {twist, *begin, *end};
-}
-
 /// Covariance of a Jacobian [(p × n)ᵀ nᵀ] whose normal has the given one.
 Matrix6d jacobian_noise(const Eigen::Vector3d& p, const Eigen::Matrix3d& normal_covariance) {
   Eigen::Matrix<double, 6, 3> by_normal;
@@ -61,11 +52,10 @@ bool PlaneMatches::near(const MotionState& state) const {
 
 NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state,
                                         double sigma_th_m, const AdaptiveIcpConfig& config, std::size_t stride) {
-  const bool timed = source.timed();
-  const bool refine = timed && config.refine_motion;
+  const bool refine = source.timed() && config.refine_motion;
   const Eigen::Matrix3d R = state.T_odom_lidar.linear();
   const Eigen::Vector3d t = state.T_odom_lidar.translation();
-  const SweepMotion motion = motion_of(source, state.twist);
+  const SweepMotion motion = SweepMotion::during(source, state.twist);
   const double gate = config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m;
   const double sigma2 = sigma_th_m * sigma_th_m;
   const std::size_t count = (source.size() + stride - 1) / stride;
@@ -78,9 +68,7 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
   for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
     NormalEquations sum;
     const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
-      const std::size_t i = k * stride;
-      const Eigen::Vector3f p = timed ? motion.compensate(source.points[i], source.offsets_s[i]) : source.points[i];
-      return R * p.cast<double>() + t;
+      return R * motion.compensated(source, k * stride).cast<double>() + t;
     };
     // Adds a point to the equations; returns its weight.
     const auto add = [&](std::size_t k, const Eigen::Vector3d& world) {

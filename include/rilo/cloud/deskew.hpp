@@ -1,6 +1,7 @@
 // Motion compensation from per-point times.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +18,8 @@ class SweepMotion {
  public:
   /// `twist`: body velocity [rad/s; m/s]; `begin_s`, `end_s`: span of the offsets that will be asked for.
   SweepMotion(const Vector6d& twist, float begin_s, float end_s);
+  /// Over the span of the cloud's offsets.
+  static SweepMotion during(const TimedCloud& cloud, const Vector6d& twist);
 
   /// Point `p` measured at `offset_s`, expressed in the sensor frame at the reference instant (offset 0).
   Eigen::Vector3f compensate(const Eigen::Vector3f& p, float offset_s) const {
@@ -27,6 +30,11 @@ class SweepMotion {
     const Eigen::Vector3f rate = omega_.cross(p) + velocity_;
     const Eigen::Vector3f q = p + rest * (rate + 0.5F * rest * omega_.cross(rate));
     return knot.R * q + knot.t;
+  }
+
+  /// Point `i` of `cloud` in the same way; as it is when it has no times.
+  Eigen::Vector3f compensated(const TimedCloud& cloud, std::size_t i) const {
+    return cloud.timed() ? compensate(cloud.points[i], cloud.offsets_s[i]) : cloud.points[i];
   }
 
  private:

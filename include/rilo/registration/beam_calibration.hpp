@@ -61,7 +61,6 @@ class BeamCalibration {
   std::vector<Information> beams_;
   std::vector<Eigen::Vector2d> steps_;
   std::vector<Beam> in_order_;  // beams in use, by elevation
-  std::vector<Eigen::Vector3f> points_;
   std::vector<Observation> observations_;
   double sweeps_ = 0;
 };

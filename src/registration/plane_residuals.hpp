@@ -1,0 +1,72 @@
+// Residuals of a registered sweep against the planes of the map, for all that learns from them.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "cloud/fixed_chunks.hpp"
+#include "rilo/cloud/deskew.hpp"
+#include "rilo/map/local_map.hpp"
+#include "rilo/registration/adaptive_icp.hpp"
+
+namespace rilo {
+
+/// A point and the surface element that it meets.
+struct PlaneResidual {
+  std::size_t index = 0;   ///< of the point in the sweep
+  Eigen::Vector3f sensor;  ///< the point, motion-compensated (m, sensor frame)
+  Eigen::Vector3d world;   ///< the same, odometry frame
+  PlaneSpot spot;          ///< of the plane in its grid
+  MapPlane plane;
+  double distance_m = 0;  ///< of the point from the plane, along its normal
+  double weight = 0;      ///< β_k, as in the registration
+};
+
+/// How a sweep was registered, and which of its points are looked at.
+struct RegisteredSweep {
+  const TimedCloud& source;
+  const MotionState& state;
+  double sigma_th_m = 0;  ///< scale of the weights
+  double gate_m = 0;      ///< larger residuals are left out
+  std::size_t stride = 1;
+
+  std::size_t looked_at() const { return (source.size() + stride - 1) / stride; }
+};
+
+/// Calls use(chunk, residual) for each point that meets a plane; chunks as those of for_fixed_chunks over looked_at().
+template <typename Use>
+void for_each_residual(const RegisteredSweep& sweep, const LocalMap& map, const Use& use) {
+  const Eigen::Matrix3d R = sweep.state.T_odom_lidar.linear();
+  const Eigen::Vector3d t = sweep.state.T_odom_lidar.translation();
+  const double sigma2 = sweep.sigma_th_m * sweep.sigma_th_m;
+  const SweepMotion motion = SweepMotion::during(sweep.source, sweep.state.twist);
+  for_fixed_chunks(sweep.looked_at(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    const auto point_at = [&](std::size_t k) { return motion.compensated(sweep.source, k * sweep.stride); };
+    const auto world_at = [&](std::size_t k) -> Eigen::Vector3d { return R * point_at(k).template cast<double>() + t; };
+    map.visit(begin, end, world_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
+      const MapPlane plane = spot.grid->plane_at(spot);
+      const double e = plane.normal.dot(world - plane.point);
+      if (std::abs(e) <= sweep.gate_m) {
+        use(chunk, PlaneResidual{k * sweep.stride, point_at(k), world, spot, plane, e, sigma2 / (sigma2 + e * e)});
+      }
+    });
+  });
+}
+
+/// Sum of what add(sum, residual) adds up, the same bits for any number of threads.
+template <typename Sum, typename Add>
+Sum sum_of_residuals(const RegisteredSweep& sweep, const LocalMap& map, const Add& add) {
+  std::vector<Sum> partial(chunk_count(sweep.looked_at()));
+  for_each_residual(sweep, map,
+                    [&](std::size_t chunk, const PlaneResidual& residual) { add(partial[chunk], residual); });
+  Sum total;
+  for (const Sum& sum : partial) {
+    total += sum;
+  }
+  return total;
+}
+
+}  // namespace rilo

@@ -37,12 +37,6 @@ constexpr int kMostQueueFailures = 60;
 fs::path folder_of(const fs::path& out) { return out / "slurm"; }
 fs::path keys_file(const fs::path& out) { return folder_of(out) / "keys.txt"; }
 
-std::string shell_quoted(const std::string& word) {
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 // The command line again, in the same folder, for the cell of the task.
 std::string script_for(const SlurmOrder& order, std::size_t offset) {
   const std::string program = fs::read_symlink("/proc/self/exe").string();

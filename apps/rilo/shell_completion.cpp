@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "text.hpp"
+
 namespace rilo::cli {
 
 namespace {
@@ -22,13 +24,6 @@ std::vector<std::string> option_names(const TreeCommand& command) {
   std::vector<std::string> names;
   for (const TreeOption& option : command.options) names.insert(names.end(), option.names.begin(), option.names.end());
   return names;
-}
-
-/// Within single quotes of bash and zsh.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
 }
 
 /// Within single quotes of fish, where the backslash counts.
@@ -53,7 +48,7 @@ std::string zsh_option(const TreeOption& option) {
       spec += ":" + zsh_plain(option.value) + ":" +
               (option.choices.empty() ? "_files" : "(" + words_joined(option.choices, " ") + ")");
     }
-    lines += " \\\n        " + quoted(spec);
+    lines += " \\\n        " + shell_quoted(spec);
   }
   return lines;
 }
@@ -65,15 +60,16 @@ std::string bash_completion(const TreeCommand& tree) {
   std::string options;
   std::string choices;
   for (const TreeCommand* command : flattened(tree)) {
-    below += fmt::format("    {}) commands={} ;;\n", quoted(command->path),
-                         quoted(words_joined(names_of(command->commands), " ")));
-    options += fmt::format("    {}) options={} ;;\n", quoted(command->path),
-                           quoted(words_joined(option_names(*command), " ")));
+    below += fmt::format("    {}) commands={} ;;\n", shell_quoted(command->path),
+                         shell_quoted(words_joined(names_of(command->commands), " ")));
+    options += fmt::format("    {}) options={} ;;\n", shell_quoted(command->path),
+                           shell_quoted(words_joined(option_names(*command), " ")));
     for (const TreeOption& option : command->options) {
       for (const std::string& name : option.names) {
         if (option.choices.empty()) continue;
-        choices += fmt::format("    {}) COMPREPLY=($(compgen -W {} -- \"$word\")); return ;;\n",
-                               quoted(command->path + " " + name), quoted(words_joined(option.choices, " ")));
+        choices +=
+            fmt::format("    {}) COMPREPLY=($(compgen -W {} -- \"$word\")); return ;;\n",
+                        shell_quoted(command->path + " " + name), shell_quoted(words_joined(option.choices, " ")));
       }
     }
   }
@@ -108,14 +104,14 @@ std::string zsh_completion(const TreeCommand& tree) {
     std::string specs;
     for (const TreeOption& option : command->options) specs += zsh_option(option);
     if (!command->commands.empty())
-      specs += " \\\n        " + quoted("*: :(" + words_joined(names_of(command->commands), " ") + ")");
+      specs += " \\\n        " + shell_quoted("*: :(" + words_joined(names_of(command->commands), " ") + ")");
     else
       specs += " \\\n        '*:file:_files'";
-    cases += fmt::format("    {})\n      _arguments -S{} ;;\n", quoted(command->path), specs);
+    cases += fmt::format("    {})\n      _arguments -S{} ;;\n", shell_quoted(command->path), specs);
   }
   std::string known;
   for (const TreeCommand* command : flattened(tree)) {
-    if (command != &tree) known += (known.empty() ? "" : "|") + quoted(command->path);
+    if (command != &tree) known += (known.empty() ? "" : "|") + shell_quoted(command->path);
   }
   return "#compdef rilo\n# Completion of rilo for zsh; written by: rilo completion zsh\n"
          "_rilo() {\n"

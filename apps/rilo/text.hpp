@@ -19,6 +19,9 @@ std::string valid_utf8(const std::string& text);
 /// null for a figure that is not there.
 nlohmann::json or_null(const std::optional<double>& value);
 
+/// Within single quotes, for sh, bash and zsh.
+std::string shell_quoted(const std::string& word);
+
 /// The command line as one would type it.
 std::string command_line(int argc, const char* const* argv);
 

@@ -5,23 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "json_file.hpp"
-#include "rilo/io/io_error.hpp"
 #include "text.hpp"
 
 namespace rilo::cli {
 
 namespace {
 
-constexpr const char* kExpected = "results.json of an earlier rilo bench";
-
 using Key = std::pair<std::string, std::string>;
-
-bool is_cell(const nlohmann::json& cell) {
-  const auto has = [&](const char* key, auto is) { return cell.contains(key) && (cell[key].*is)(); };
-  return cell.is_object() && has("sequence", &nlohmann::json::is_string) &&
-         has("configuration", &nlohmann::json::is_string) && has("figures", &nlohmann::json::is_object);
-}
 
 std::map<Key, const nlohmann::json*> cells_of(const nlohmann::json& baseline) {
   std::map<Key, const nlohmann::json*> cells;
@@ -38,20 +28,6 @@ std::string difference(const std::optional<double>& now, const nlohmann::json& f
 std::string name_of(const Key& key) { return key.first + " × " + key.second; }
 
 }  // namespace
-
-nlohmann::json read_baseline(const std::filesystem::path& file) {
-  nlohmann::json json = read_json_object(file, kExpected, "Check the path after --baseline");
-  if (json.value("rilo_bench", nlohmann::json()) != 1 || !json.contains("cells") || !json["cells"].is_array()) {
-    throw IoError(
-        {file, "", "JSON of another kind", std::string(kExpected) + " (\"rilo_bench\": 1 and a list cells)", ""});
-  }
-  for (std::size_t i = 0; i < json["cells"].size(); ++i) {
-    if (is_cell(json["cells"][i])) continue;
-    throw IoError(
-        {file, fmt::format("cell {}", i + 1), "a cell without sequence, configuration or figures", kExpected, ""});
-  }
-  return json;
-}
 
 TitledTable baseline_table(const std::vector<BenchCell>& cells, const nlohmann::json& baseline,
                            const std::filesystem::path& file) {

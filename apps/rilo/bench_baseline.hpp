@@ -9,10 +9,7 @@
 
 namespace rilo::cli {
 
-/// results.json of an earlier run. @throws IoError when it is none.
-nlohmann::json read_baseline(const std::filesystem::path& file);
-
-/// New minus old for each cell that both have; cells of only one are named in the note.
+/// New minus old for each cell that both have; cells of only one are named in the note. `baseline`: its results.json.
 TitledTable baseline_table(const std::vector<BenchCell>& cells, const nlohmann::json& baseline,
                            const std::filesystem::path& file);
 

@@ -148,7 +148,9 @@ void add_common_flags(CLI::App& command, BenchFlags& flags) {
   BenchOrder& order = flags.order;
   command.add_option("--out", order.out, "folder for the results (created); what is finished there is not run again")
       ->check(path_given());
-  command.add_option("--baseline", order.baseline, "results.json of an earlier benchmark to print the difference to")
+  command
+      .add_option("--baseline", order.baseline,
+                  "folder, results.json or results.sqlite of an earlier benchmark to print the difference to")
       ->check(path_given());
   command.add_option("--count", order.run.count, "run that many sweeps of every sequence; 0: all, or as FILE says")
       ->check(whole_number());

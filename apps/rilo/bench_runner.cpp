@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include "bench_baseline.hpp"
 #include "bench_description.hpp"
 #include "bench_output.hpp"
 #include "bench_pool.hpp"
@@ -20,6 +19,7 @@
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "run_outputs.hpp"
+#include "saved_results.hpp"
 #include "temporary_folder.hpp"
 #include "text.hpp"
 
@@ -59,7 +59,7 @@ class BenchRunner {
         lock_(out_),
         temporary_(order.out.empty() ? std::make_optional<TemporaryFolder>("rilo-bench") : std::nullopt),
         folder_(temporary_ ? temporary_->path() : std::filesystem::path(out_), !temporary_) {
-    if (!order.baseline.empty()) baseline_ = read_baseline(order.baseline);
+    if (!order.baseline.empty()) baseline_ = read_saved_results(order.baseline);
   }
 
   int run() {

@@ -8,7 +8,7 @@
 
 #include "command.hpp"
 #include "rilo/io/io_error.hpp"
-#include "saved_bench.hpp"
+#include "saved_results.hpp"
 #include "saved_run.hpp"
 #include "text.hpp"
 
@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kExpectedResults =
-    "a folder of rilo run (metrics.json, or poses_lidar.partial.txt), a folder or results.json of rilo bench, or a "
+    "a folder of rilo run (metrics.json, or poses_lidar.partial.txt), a folder, results.json or results.sqlite of rilo "
+    "bench, or a "
     "pose file as NAME=FILE";
 
 bool exists(const std::string& path) {
@@ -58,7 +59,7 @@ std::string contents(const fs::path& folder) {
 
 std::optional<ReportInputKind> kind_of(const fs::path& path) {
   std::error_code ignored;
-  if (is_saved_bench(path)) return ReportInputKind::kBench;
+  if (is_saved_results(path)) return ReportInputKind::kBench;
   if (fs::is_regular_file(path, ignored)) return ReportInputKind::kPoses;
   if (is_saved_run(path)) return ReportInputKind::kRun;
   return std::nullopt;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "bench_baseline.hpp"
 #include "rilo/io/io_error.hpp"
+#include "saved_results.hpp"
 #include "sensitivity.hpp"
 #include "text.hpp"
 
@@ -13,8 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-constexpr const char* kResults = "results.json";
 
 std::string text_at(const Json& json, const char* key) {
   return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
@@ -64,20 +62,14 @@ std::string bench_notice(const Json& json, std::size_t failed) {
 
 }  // namespace
 
-bool is_saved_bench(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_directory(path, ignored) ? fs::is_regular_file(path / kResults, ignored)
-                                         : path.extension() == ".json" && fs::is_regular_file(path, ignored);
-}
-
 ExperimentReport read_saved_bench(const fs::path& path) {
-  const fs::path file = fs::is_directory(path) ? path / kResults : path;
-  const Json json = read_baseline(file);
+  const Json json = read_saved_results(path);
   if (json["cells"].empty()) {
-    throw IoError({file, "", "a benchmark without a finished cell", "results of at least one", "Run rilo bench again"});
+    throw IoError({path, "", "a benchmark without a finished cell", "results of at least one", "Run rilo bench again"});
   }
+  const fs::path folder = fs::is_directory(path) ? path : path.parent_path();
   ExperimentReport report;
-  report.title = valid_utf8(last_name(file.parent_path().empty() ? "." : file.parent_path()));
+  report.title = valid_utf8(last_name(folder.empty() ? "." : folder));
   report.figures = report_figures();
   std::vector<ConfigurationSettings> settings;
   std::size_t failed = 0;
@@ -90,7 +82,7 @@ ExperimentReport read_saved_bench(const fs::path& path) {
   report.notice = bench_notice(json, failed);
   report.facts = {{"Command", text_at(json, "command")},
                   {"Rilo", text_at(json, "rilo_version")},
-                  {"Results", valid_utf8(file.string())}};
+                  {"Results", valid_utf8(path.string())}};
   for (const auto& [name, words] : settings) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;

@@ -1,4 +1,4 @@
-// results.json of rilo bench as a report shows it.
+// Results of rilo bench as a report shows them.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,7 @@
 
 namespace rilo::cli {
 
-/// Whether `path` is such a file, or a folder with one.
-bool is_saved_bench(const std::filesystem::path& path);
-
-/// @throws IoError when it is no results.json of a benchmark, or holds no cell.
+/// `path` as in read_saved_results(). @throws IoError when it is no benchmark's, or holds no cell.
 ExperimentReport read_saved_bench(const std::filesystem::path& path);
 
 }  // namespace rilo::cli

@@ -11,6 +11,7 @@
 #include "bench_cell_file.hpp"
 #include "io/io_test_util.hpp"
 #include "rilo/io/io_error.hpp"
+#include "saved_results.hpp"
 
 namespace rilo::cli {
 namespace {
@@ -154,7 +155,7 @@ TEST(BenchBaseline, NewMinusOldAndWhatOnlyOneHas) {
   old.cells = {cell("a", "x", 1, 30), cell("b", "gone", 1, 30)};
   const auto file = folder.write("results.json", results_json(old).dump());
   const TitledTable table =
-      baseline_table({cell("a", "x", 0.75, 30), cell("c", "new", 1, 30)}, read_baseline(file), file);
+      baseline_table({cell("a", "x", 0.75, 30), cell("c", "new", 1, 30)}, read_saved_results(file), file);
   ASSERT_EQ(table.table.rows.size(), 1U);
   EXPECT_EQ(table.table.rows[0][2], "-0.2500");
   EXPECT_EQ(table.table.rows[0][4], "+0.0000");
@@ -162,7 +163,7 @@ TEST(BenchBaseline, NewMinusOldAndWhatOnlyOneHas) {
   EXPECT_THAT(table.note, HasSubstr("only in the baseline: b × gone"));
 }
 
-TEST(BenchBaseline, AnythingElseIsRefused) {
+TEST(SavedResults, AnythingElseIsRefused) {
   const TempDir folder;
   for (const char* text :
        {"", "[]", "{", "{\"rilo_bench\": 2, \"cells\": []}", "{\"rilo_bench\": 1}",
@@ -170,10 +171,11 @@ TEST(BenchBaseline, AnythingElseIsRefused) {
         "{\"rilo_bench\": 1, \"cells\": [{\"sequence\": 1, \"configuration\": \"\", \"figures\": {}}]}",
         "{\"rilo_bench\": 1, \"cells\": [{\"sequence\": \"\", \"configuration\": \"\"}]}", "\xff\xfe"}) {
     const auto file = folder.write("results.json", text);
-    test::expect_io_error([&] { read_baseline(file); }, {"results.json of an earlier rilo bench"});
+    test::expect_io_error([&] { read_saved_results(file); }, {"results.json or results.sqlite of rilo bench"});
   }
-  test::expect_io_error([&] { read_baseline(folder / "none"); }, {"--baseline"});
-  test::expect_io_error([&] { read_baseline(folder.path()); }, {"--baseline"});
+  test::expect_io_error([&] { read_saved_results(folder / "none"); }, {"none", "Check the path"});
+  std::filesystem::remove(folder / "results.json");
+  test::expect_io_error([&] { read_saved_results(folder.path()); }, {"results.sqlite", "no file of this name"});
 }
 
 }  // namespace

@@ -109,6 +109,24 @@ TEST(BenchCommand, ComparesWithEarlierResults) {
   rilo_fails(3, {"bench", plan, "--baseline", plan}, {"no JSON", "results.json"});
 }
 
+TEST(BenchCommand, TheStoreAloneIsEnoughForReportsAndDifferences) {
+  const TempDir folder;
+  const auto out = folder / "out";
+  const auto plan = folder.write("plan.yaml", "sequences:\n" + sequence("one", shared_drive()) + kConfigurations);
+  rilo_succeeds({"bench", plan, "--out", out, "--quiet", "--count", "6"});
+  rilo_succeeds({"report", out, "-o", folder / "of_json.html"});
+  std::filesystem::remove(out / "results.json");
+  rilo_succeeds({"report", out, "-o", folder / "of_store.html"});
+  EXPECT_EQ(slurp(folder / "of_store.html"), slurp(folder / "of_json.html"));
+  EXPECT_THAT(slurp(folder / "of_store.html"), HasSubstr("coarse.enabled=false"));
+  rilo_succeeds({"report", out / "results.sqlite", "-o", folder / "of_file.html"});
+  const Outcome again = rilo_succeeds({"bench", plan, "--baseline", out / "results.sqlite", "--quiet", "--count", "6"});
+  EXPECT_THAT(again.out, HasSubstr("+0.0000"));
+  EXPECT_THAT(again.out, Not(HasSubstr("in the baseline")));
+  rilo_fails(3, {"report", folder.write("other.sqlite", "no database"), "-o", folder / "no.html"},
+             {"other.sqlite", "not a database", "results.sqlite"});
+}
+
 TEST(BenchCommand, ComparesWithPoseFiles) {
   const TempDir folder;
   rilo_succeeds({"run", shared_drive(), "--out", folder / "run", "--quiet"});

@@ -39,7 +39,6 @@ run_phase() {
     fuzz) scripts/fuzz.sh "${RILO_FUZZ_SECONDS:-60}" ;;
     coverage) scripts/coverage.sh ;;
     instructions) scripts/instructions.sh ;;
-    *) die "unknown phase '$1'; known: ${phases[*]} sanitize-short" ;;
   esac
 }
 
@@ -56,7 +55,11 @@ for argument in "$@"; do
     --stop) stop=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
     -*) die "unknown option '$argument'; known: --stop" ;;
-    *) chosen+=("$argument") ;;
+    *)
+      [[ " ${phases[*]} sanitize-short " == *" $argument "* ]] ||
+        die "unknown phase '$argument'; known: ${phases[*]} sanitize-short"
+      chosen+=("$argument")
+      ;;
   esac
 done
 [ ${#chosen[@]} -eq 0 ] || phases=("${chosen[@]}")

@@ -1,4 +1,5 @@
-"""Memory, open files and threads of a running process, from /proc."""
+"""What a long run needs: a drive without end, and memory, open files and threads of the process that runs it."""
+import itertools
 import os
 
 
@@ -20,9 +21,22 @@ def table(rows):
         yield f"{sweeps:8d} {ms:7.1f} {rss_mb:8.1f} {files:6d} {threads:8d}"
 
 
-def growth(rows, key, head=0.1):
-    """Mean of the last tenth of the rows minus mean of the tenth after the first (`head`: what starting up takes)."""
-    skip = max(1, round(head * len(rows)))
+def print_growth(rows):
+    """Says how the last tenth of the rows differs from the tenth after the first, which is starting up, on average.
+    Returns the growth of memory (MB), open files and threads."""
     part = max(1, len(rows) // 10)
-    early, late = rows[skip:skip + part], rows[-part:]
-    return sum(map(key, late)) / len(late) - sum(map(key, early)) / len(early)
+    skip = max(1, round(0.1 * len(rows)))
+
+    def growth(key):
+        early, late = rows[skip:skip + part], rows[-part:]
+        return sum(map(key, late)) / len(late) - sum(map(key, early)) / len(early)
+
+    memory, files, threads = (growth(lambda row, i=i: row[2][i]) for i in range(3))
+    print(f"last tenth against the second: {growth(lambda row: row[1]):+.1f} ms, {memory:+.1f} MB, {files:+.1f} files, "
+          f"{threads:+.1f} threads")
+    return memory, files, threads
+
+
+def there_and_back(items):
+    """The items forwards and backwards without end; neither end comes twice in a row."""
+    return itertools.cycle(items + items[-2:0:-1])

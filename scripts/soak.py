@@ -16,7 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-from process_watch import growth, state_of, table
+from process_watch import print_growth, state_of, table, there_and_back
 
 MEMORY_SLACK_MB = 5.0
 RESULT_MB = 1.5 / 1024
@@ -26,13 +26,12 @@ def link_there_and_back(drive, folder, sweeps):
     files = sorted(Path(drive, "velodyne").resolve().glob("*.bin"))
     if len(files) < 2:
         sys.exit(f"soak.py: {drive}/velodyne has {len(files)} .bin files; two at least are needed")
-    cycle = files + files[-2:0:-1]
     target = folder / "velodyne"
     target.mkdir(parents=True, exist_ok=True)
-    for i in range(sweeps):
+    for i, file in zip(range(sweeps), there_and_back(files)):
         link = target / f"{i:06d}.bin"
         link.unlink(missing_ok=True)
-        link.symlink_to(cycle[i % len(cycle)])
+        link.symlink_to(file)
     (folder / "times.txt").write_text("".join(f"{0.1 * i:.1f}\n" for i in range(sweeps)))
 
 
@@ -78,9 +77,7 @@ def main():
         total_ms = [float(row["total_ms"]) for row in csv.DictReader(file)]
     rows = [(n, sum(total_ms[n - arguments.every:n]) / arguments.every, state) for n, state in sorted(states.items())]
     print("\n".join(table(rows)))
-    memory, files, threads = (growth(rows, lambda row, i=i: row[2][i]) for i in range(3))
-    print(f"last tenth against the second: {growth(rows, lambda row: row[1]):+.1f} ms, {memory:+.1f} MB, "
-          f"{files:+.1f} files, {threads:+.1f} threads")
+    memory, files, threads = print_growth(rows)
     kept = MEMORY_SLACK_MB + RESULT_MB * arguments.sweeps
     sys.exit(int(memory > kept or files > 0 or threads > 0))
 

@@ -16,16 +16,30 @@ def ros_time(stamp_ns):
     return rospy.Time(stamp_ns // 1_000_000_000, stamp_ns % 1_000_000_000)
 
 
+def sweep_files(drive):
+    """Of a folder made by `rilo simulate`, in order."""
+    return sorted(Path(drive, "velodyne").glob("*.bin"))
+
+
+def points_of(file):
+    """The points of a sweep, all at time 0."""
+    columns = np.fromfile(file, "<f4").reshape(-1, 4)
+    points = np.zeros(len(columns), POINT)
+    for column, name in enumerate(("x", "y", "z", "intensity")):
+        points[name] = columns[:, column]
+    return points
+
+
+def sweep_stamp_ns(index):
+    return FIRST_STAMP_NS + round(index * PERIOD_S * 1e9)
+
+
 def sweeps_of(drive):
     """Messages of a folder made by `rilo simulate`, in order."""
-    files = sorted(Path(drive, "velodyne").glob("*.bin"))
-    for index, file in enumerate(files):
-        columns = np.fromfile(file, "<f4").reshape(-1, 4)
-        points = np.zeros(len(columns), POINT)
-        for column, name in enumerate(("x", "y", "z", "intensity")):
-            points[name] = columns[:, column]
+    for index, file in enumerate(sweep_files(drive)):
+        points = points_of(file)
         points["time"] = np.fromfile(Path(drive, "times_pt", file.name), "<f4") * np.float32(PERIOD_S)
-        yield cloud(points, FIRST_STAMP_NS + round(index * PERIOD_S * 1e9))
+        yield cloud(points, sweep_stamp_ns(index))
 
 
 def cloud(points, stamp_ns, frame="velodyne"):

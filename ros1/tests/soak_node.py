@@ -4,8 +4,9 @@
 
 DRIVE is a folder made by `rilo simulate`, with or without times. A sweep is sent when the one but one before it has its
 pose, so that the node is never idle and drops nothing. Prints a table: milliseconds a sweep (everything, transport
-included), resident memory, open files, threads. No map is kept for save_map, which grows with every place; the path that
-is published grows by a pose a sweep, about 250 bytes.
+included), resident memory, open files, threads; exit code 1 if the last tenth of the run holds more files or threads than
+the tenth after the first, or more memory than the published path, 250 bytes a pose, and 5 MB. No map is kept for save_map,
+which grows with every place.
 """
 
 import sys
@@ -13,7 +14,6 @@ import tempfile
 import time
 from pathlib import Path
 
-import numpy as np
 import rospy
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import PointCloud2
@@ -22,21 +22,15 @@ import ros_bag
 from ros_system import running_node, start_roscore, stop, wait_for
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
-from process_watch import growth, state_of, table  # noqa: E402
+from process_watch import print_growth, state_of, table, there_and_back  # noqa: E402
+
+PATH_MB = 250 / 2**20
 
 
 def sweeps_there_and_back(drive):
     """Messages without end; the sweeps are motion-compensated, as if each were taken at one instant."""
-    files = sorted(Path(drive, "velodyne").glob("*.bin"))
-    index = 0
-    while True:
-        place = index % (2 * len(files) - 2)
-        columns = np.fromfile(files[min(place, 2 * len(files) - 2 - place)], "<f4").reshape(-1, 4)
-        points = np.zeros(len(columns), ros_bag.POINT)
-        for column, name in enumerate(("x", "y", "z", "intensity")):
-            points[name] = columns[:, column]
-        yield ros_bag.cloud(points, ros_bag.FIRST_STAMP_NS + index * 100_000_000)
-        index += 1
+    for index, file in enumerate(there_and_back(ros_bag.sweep_files(drive))):
+        yield ros_bag.cloud(ros_bag.points_of(file), ros_bag.sweep_stamp_ns(index))
 
 
 def soak(drive, sweeps, every):
@@ -75,9 +69,8 @@ def main():
         finally:
             rospy.signal_shutdown("done")
             stop(core)
-    memory, files, threads = (growth(rows, lambda row, i=i: row[2][i]) for i in range(3))
-    print(f"last tenth against the second: {growth(rows, lambda row: row[1]):+.1f} ms, {memory:+.1f} MB, "
-          f"{files:+.1f} files, {threads:+.1f} threads")
+    memory, files, threads = print_growth(rows)
+    sys.exit(int(memory > 5.0 + PATH_MB * sweeps or files > 0 or threads > 0))
 
 
 if __name__ == "__main__":

@@ -161,14 +161,14 @@ class Pool {
 
 }  // namespace
 
-CellRecord failed_record(const BenchJob& job, const CellFolder& folder, std::size_t attempts,
-                         const std::string& error) {
+CellRecord failed_record(const BenchJob& job, const CellFolder& folder, std::size_t attempts, const std::string& error,
+                         ExitCode code) {
   BenchCell cell;
   cell.sequence = job.sequence.name;
   cell.configuration = job.configuration.name;
   cell.settings = job.configuration.settings;
   cell.error = error;
-  cell.error_code = kUnexpected;
+  cell.error_code = code;
   CellRecord record{{cell}, attempts, folder.log_name(job), host_name()};
   try {
     folder.write(job, record);

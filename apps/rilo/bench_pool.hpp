@@ -29,6 +29,7 @@ void run_in_pool(const std::vector<BenchJob>& jobs, const CellFolder& folder, co
                  const BenchEffort& effort, const BenchEvents& events);
 
 /// A job that left no result of its own, as its record.
-CellRecord failed_record(const BenchJob& job, const CellFolder& folder, std::size_t attempts, const std::string& error);
+CellRecord failed_record(const BenchJob& job, const CellFolder& folder, std::size_t attempts, const std::string& error,
+                         ExitCode code = kUnexpected);
 
 }  // namespace rilo::cli

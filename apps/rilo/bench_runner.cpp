@@ -243,8 +243,8 @@ int run_bench_cell(const BenchOrder& order, std::vector<BenchJob> jobs, std::siz
   const char* processors = std::getenv("SLURM_CPUS_PER_TASK");
   if (flags.threads < 0) flags.threads = processors == nullptr ? 1 : std::max(1, std::atoi(processors));
   Describer(flags, order.out).describe(job);
-  check_submitted(order.out, number, job);
   const CellFolder folder(order.out, true);
+  check_submitted(order.out, number, job, folder);
   int code = kSuccess;
   const InterruptGuard guard;
   const BenchEvents events{

@@ -65,7 +65,7 @@ class SlurmRun {
     while (!open_.empty() && InterruptGuard::signal() == 0) {
       pause();
       look();
-      submit();
+      submit_again();
     }
     if (InterruptGuard::signal() != 0) cancel();
   }
@@ -133,6 +133,16 @@ class SlurmRun {
         flights_[index + offset] = {{array, index, "PENDING", name_at(offset)}, false, false, {}, ""};
         ++attempts_[index + offset];
       }
+    }
+  }
+
+  // Such jobs were taken before: what is refused now is so for a while, because of the controller or of a limit.
+  void submit_again() {
+    try {
+      submit();
+      refusals_ = 0;
+    } catch (const CommandError&) {
+      if (++refusals_ > kMostQueueFailures) throw;
     }
   }
 
@@ -213,6 +223,7 @@ class SlurmRun {
   std::map<std::size_t, std::size_t> attempts_;
   std::chrono::milliseconds interval_ = kShortestLook;
   int queue_failures_ = 0;
+  int refusals_ = 0;  // by sbatch
 };
 
 }  // namespace
@@ -222,14 +233,21 @@ void run_on_slurm(const std::vector<BenchJob>& open, const std::vector<BenchJob>
   SlurmRun(all, folder, order, events).run(open);
 }
 
-void check_submitted(const fs::path& out, std::size_t number, const BenchJob& job) {
+void check_submitted(const fs::path& out, std::size_t number, const BenchJob& job, const CellFolder& folder) {
   std::ifstream keys(keys_file(out));
   std::string key;
   for (std::size_t i = 0; i <= number; ++i) std::getline(keys, key);
   if (keys && key == job.key) return;
-  throw CommandError(kBadData, fmt::format("{}: cell {} ({}) is not the one that was submitted: its data, its "
-                                           "configuration or the program were changed. Run the benchmark again",
-                                           out.string(), number, job.name()));
+  const std::string message = fmt::format(
+      "{}: cell {} ({}) is not the one that was submitted: its data, its "
+      "configuration or the program were changed. Run the benchmark again",
+      out.string(), number, job.name());
+  if (keys) {
+    BenchJob submitted = job;
+    submitted.key = key;
+    failed_record(submitted, folder, 1, message, kBadData);
+  }
+  throw CommandError(kBadData, message);
 }
 
 }  // namespace rilo::cli

@@ -131,6 +131,9 @@ class SweepLoop {
   }
 
   void start_over() {
+    // Before anything is given up: the data may be gone meanwhile.
+    auto source = open_scan_source(flags_.data, flags_.source.options);
+    source->skip(flags_.start);
     run_.started_over_after = run_.results.size();
     run_.config.elevation.initial_deg = kDegPerRad * run_.results.back().stats.elevation_offset_rad;
     progress_.say(
@@ -138,8 +141,7 @@ class SweepLoop {
                     run_.results.size(), run_.config.elevation.initial_deg));
     run_.results.clear();
     run_.indices.clear();
-    source_ = open_scan_source(flags_.data, flags_.source.options);
-    source_->skip(flags_.start);
+    source_ = std::move(source);
     partial_.start_over();
     if (view_ != nullptr) view_->start_over();
     odometry_ = new_odometry();

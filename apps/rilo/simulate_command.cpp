@@ -11,10 +11,12 @@
 
 #include "checks.hpp"
 #include "command.hpp"
+#include "folder_lock.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 #include "rilo/simulation/drive_writer.hpp"
+#include "run_outputs.hpp"
 #include "text.hpp"
 
 namespace rilo::cli {
@@ -45,6 +47,8 @@ DriveSimulator make_drive(const DriveConfig& config) {
 
 int simulate(const SimulateFlags& flags) {
   const DriveSimulator drive = make_drive(flags.drive);
+  create_folder(flags.out);
+  const FolderLock lock(flags.out);  // before anything of an earlier drive is removed
   Progress progress("simulating", drive.size(), flags.quiet);
   const InterruptGuard guard;
   DriveSummary summary;

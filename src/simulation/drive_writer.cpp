@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -24,13 +25,24 @@ namespace fs = std::filesystem;
   throw std::runtime_error(path.string() + ": " + what + ": " + reason);
 }
 
+constexpr std::string_view kTemporary = ".tmp";
+
+// Under another name first: whoever finds a file finds all of it, even of a program that was killed.
 void write_file(const fs::path& path, const void* bytes, std::size_t size) {
+  const fs::path temporary = path.string() + std::string(kTemporary);
   errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
   if (!file) fail(path, "cannot be opened for writing", errno);
   file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
   file.close();
-  if (!file) fail(path, "cannot be written", errno);
+  const int failure = errno;
+  std::error_code error;
+  if (!file) {
+    fs::remove(temporary, error);
+    fail(path, "cannot be written", failure);
+  }
+  fs::rename(temporary, path, error);
+  if (error) fail(path, "cannot be given its name", error.value());
 }
 
 void write_text(const fs::path& path, const std::string& text) { write_file(path, text.data(), text.size()); }
@@ -47,19 +59,25 @@ void create_folder(const fs::path& path) {
   }
 }
 
+// Of the command, where the folder itself cannot be locked: whoever holds it goes on holding it.
+constexpr std::string_view kLock = ".rilo.lock";
+
 // Only what an earlier drive left is taken away, never something else that the folder holds.
 void prepare_folder(const fs::path& folder) {
-  static const std::set<std::string> kOurs = {"velodyne",  "times_pt",      "times.txt",     "calib.txt",
-                                              "poses.txt", "poses_mid.txt", "poses_end.txt", "poses_start.txt",
-                                              "meta.json", "meta.json.tmp"};
+  static const std::set<std::string> kOurs = {"velodyne",      "times_pt",        "times.txt",
+                                              "calib.txt",     "poses.txt",       "poses_mid.txt",
+                                              "poses_end.txt", "poses_start.txt", "meta.json"};
   create_folder(folder);
   std::error_code error;
   std::vector<fs::path> found;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (kOurs.count(it->path().filename().string()) == 0) {
-      throw std::runtime_error(it->path().string() + ": is no part of a simulated drive; choose an empty folder");
+    const fs::path& path = it->path();
+    if (path.filename() == kLock) continue;
+    const fs::path name = path.extension() == kTemporary ? path.stem() : path.filename();
+    if (kOurs.count(name.string()) == 0) {
+      throw std::runtime_error(path.string() + ": is no part of a simulated drive; choose an empty folder");
     }
-    found.push_back(it->path());
+    found.push_back(path);
   }
   if (error) fail(folder, "cannot be listed", error.value());
   // meta.json first: from here on the old drive is recognisably incomplete.
@@ -184,11 +202,7 @@ DriveSummary write_drive(const DriveSimulator& drive, const fs::path& folder, co
     go_on = !progress || progress(summary.sweeps, drive.size());
   }
   write_texts(drive, folder, poses);
-  const fs::path temporary = folder / "meta.json.tmp";
-  write_text(temporary, description(drive, summary));
-  std::error_code error;
-  fs::rename(temporary, folder / "meta.json", error);
-  if (error) fail(folder / "meta.json", "cannot be given its name", error.value());
+  write_text(folder / "meta.json", description(drive, summary));
   return summary;
 }
 

@@ -1,5 +1,6 @@
 #include "cli/drives.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace rilo::test {
@@ -49,6 +50,11 @@ void append(const fs::path& file, std::size_t bytes) {
 void replace(const fs::path& file, const std::string& bytes) {
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << bytes;
+}
+
+std::size_t complete_lines(const fs::path& file) {
+  const std::string text = fs::exists(file) ? slurp(file) : "";
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
 nlohmann::json json_file(const fs::path& file) { return nlohmann::json::parse(slurp(file)); }

@@ -28,6 +28,9 @@ std::filesystem::path sweep_file(const std::filesystem::path& drive, std::size_t
 void append(const std::filesystem::path& file, std::size_t bytes);
 void replace(const std::filesystem::path& file, const std::string& bytes);
 
+/// Lines that end with a line break; 0 where there is no such file yet.
+std::size_t complete_lines(const std::filesystem::path& file);
+
 nlohmann::json json_file(const std::filesystem::path& file);
 
 }  // namespace rilo::test

@@ -1,14 +1,14 @@
-// What breaks around a run: docs/faults.md, line by line. Killed and interrupted runs and benchmarks, and output that
-// cannot be written from the start, are in interrupted_run_test, bench_resume_test and unwritable_output_test.
+// What breaks around a run: docs/faults.md, line by line. Killed and interrupted runs and benchmarks, output that
+// cannot be written from the start, input that changes and simulations are in interrupted_run_test, bench_resume_test,
+// unwritable_output_test, faults_input_test and simulate_faults_test.
 #include <csignal>
 #include <cstdlib>
-#include <sys/mount.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <gmock/gmock.h>
 
 #include "cli/drives.hpp"
+#include "cli/shortages.hpp"
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/pose_reader.hpp"
 
@@ -20,48 +20,6 @@ using testing::HasSubstr;
 
 constexpr std::size_t kLongRun = 2000;
 
-// A limit for the processes that are started while it lives.
-class Limit {
- public:
-  Limit(int resource, rlim_t value) : resource_(resource) {
-    ::getrlimit(static_cast<__rlimit_resource>(resource_), &before_);
-    const rlimit limit{value, before_.rlim_max};
-    ::setrlimit(static_cast<__rlimit_resource>(resource_), &limit);
-  }
-  ~Limit() { ::setrlimit(static_cast<__rlimit_resource>(resource_), &before_); }
-  Limit(const Limit&) = delete;
-  Limit& operator=(const Limit&) = delete;
-
- private:
-  int resource_;
-  rlimit before_{};
-};
-
-// A disk of its own, where we may mount one.
-class SmallDisk {
- public:
-  explicit SmallDisk(const fs::path& place) : place_(place) {
-    fs::create_directories(place);
-    mounted_ = ::mount("none", place.c_str(), "tmpfs", 0, "size=64k") == 0;
-  }
-  ~SmallDisk() {
-    if (mounted_) ::umount2(place_.c_str(), MNT_DETACH);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
-  bool mounted() const { return mounted_; }
-  bool change(unsigned long flags, const char* options) const {
-    return ::mount("none", place_.c_str(), "tmpfs", MS_REMOUNT | flags, options) == 0;
-  }
-
- private:
-  fs::path place_;
-  bool mounted_;
-};
-
-std::size_t lines_in(const fs::path& file) { return fs::exists(file) ? lines_of(slurp(file)).size() : 0; }
-
 // Every result is there as a whole or not at all, and nothing else lies around.
 void expect_whole_files(const fs::path& out) {
   if (fs::exists(out / "poses_lidar.txt")) {
@@ -71,7 +29,7 @@ void expect_whole_files(const fs::path& out) {
     EXPECT_EQ(read_tum(out / "trajectory.tum").size(), kDriveSweeps);
   }
   if (fs::exists(out / "sweeps.csv")) {
-    EXPECT_EQ(lines_in(out / "sweeps.csv"), kDriveSweeps + 1);
+    EXPECT_EQ(complete_lines(out / "sweeps.csv"), kDriveSweeps + 1);
   }
   if (fs::exists(out / "metrics.json")) {
     EXPECT_EQ(json_file(out / "metrics.json")["frames"], kDriveSweeps);
@@ -134,7 +92,7 @@ TEST(Faults, ALimitOnTheSizeOfFilesKeepsTheLinesBefore) {
 TEST(Faults, AFullDiskKeepsWhatFitsAndABenchmarkGoesOnWhenThereIsRoom) {
   const TempDir folder;
   const auto out = folder / "disk";
-  const SmallDisk disk(out);
+  const SmallDisk disk(out, "size=64k");
   if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here";
   rilo_fails(4, {"run", shared_drive(), "--out", out, "--quiet"}, {"No space left", "Free some disk space"});
   expect_whole_files(out);
@@ -151,89 +109,24 @@ TEST(Faults, AFullDiskKeepsWhatFitsAndABenchmarkGoesOnWhenThereIsRoom) {
 
 TEST(Faults, AReadOnlyDiskIsSaidBeforeTheRun) {
   const TempDir folder;
-  const SmallDisk disk(folder / "disk");
+  const SmallDisk disk(folder / "disk", "size=64k");
   if (!disk.mounted() || !disk.change(MS_RDONLY, "size=64k")) GTEST_SKIP() << "no disk can be mounted here";
   rilo_fails(4, {"run", shared_drive(), "--out", folder / "disk", "--quiet"}, {"Read-only file system"});
   rilo_fails(4, {"run", shared_drive(), "--out", folder / "disk" / "new", "--quiet"}, {"Read-only file system"});
   const auto plan = folder.write("plan.yaml", "sequences: [{path: '" + shared_drive().string() + "'}]\n");
   rilo_fails(4, {"bench", plan, "--out", folder / "disk", "--quiet"}, {"Read-only file system"});
+  rilo_fails(4, {"simulate", "--out", folder / "disk"}, {"Read-only file system"});
 }
 
 TEST(Faults, TheOutputFolderDisappears) {
   const TempDir folder;
   const auto out = folder / "out";
   CommandProcess run({"run", long_folder(folder, 60), "--out", out, "--threads", "1", "--quiet"});
-  ASSERT_TRUE(run.wait_until([&] { return lines_in(out / "poses_lidar.partial.txt") > 0; }));
+  ASSERT_TRUE(run.wait_until([&] { return complete_lines(out / "poses_lidar.partial.txt") > 0; }));
   fs::remove_all(out);
   const Outcome outcome = run.wait();
   EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("does not exist"));
-}
-
-// Stops the run after some sweeps, spoils one that comes later, and lets it go on.
-void expect_kept_before(const std::function<void(const fs::path&)>& spoil, const std::string& said) {
-  constexpr std::size_t kSpoiled = 60;
-  const TempDir folder;
-  const auto out = folder / "out";
-  const auto sweeps = long_folder(folder, 100);
-  CommandProcess run({"run", sweeps, "--out", out, "--threads", "1", "--quiet"});
-  ASSERT_TRUE(run.wait_until([&] { return lines_in(out / "poses_lidar.partial.txt") > 0; }));
-  run.send(SIGSTOP);
-  ASSERT_LT(lines_in(out / "poses_lidar.partial.txt"), kSpoiled - 10);  // less what is read ahead
-  spoil(sweeps / (std::to_string(kSpoiled) + ".bin"));
-  run.send(SIGCONT);
-  const Outcome outcome = run.wait();
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
-  for (const std::string& part : {std::string("60.bin"), said, std::string("kept: 60 sweeps before it")}) {
-    EXPECT_THAT(outcome.err, HasSubstr(part));
-  }
-  EXPECT_EQ(read_kitti_poses(out / "poses_lidar.txt").size(), kSpoiled);
-  EXPECT_EQ(json_file(out / "metrics.json")["frames"], kSpoiled);
-}
-
-TEST(Faults, InputIsCutOffMeanwhile) {
-  expect_kept_before(
-      [](const fs::path& file) {
-        fs::remove(file);  // a link to the shared drive
-        replace(file, std::string(1003, '\x01'));
-      },
-      "1003 bytes");
-}
-
-TEST(Faults, InputDisappearsMeanwhile) {
-  expect_kept_before([](const fs::path& file) { fs::remove(file); }, "No such file");
-}
-
-TEST(Faults, InputIsReplacedMeanwhile) {
-  expect_kept_before(
-      [](const fs::path& file) {
-        fs::remove(file);
-        fs::create_directory(file);
-      },
-      "folder");
-}
-
-TEST(Faults, TheClockOfTheDataJumpsBack) {
-  const TempDir folder;
-  const auto drive = copy_of_drive(folder);
-  std::string times;
-  for (std::size_t i = 0; i < kDriveSweeps; ++i) {
-    const double jump = i < kDriveSweeps / 2 ? 0 : 3600;
-    times += std::to_string(4000 + 0.1 * static_cast<double>(i) - jump) + "\n";
-  }
-  replace(drive / "times.txt", times);
-  const auto out = folder / "out";
-  const Outcome run = rilo_succeeds({"run", drive, "--out", out});
-  EXPECT_THAT(run.err, HasSubstr("the stamps go back by"));
-  const auto metrics = json_file(out / "metrics.json");
-  EXPECT_EQ(metrics["frames"], kDriveSweeps);
-  EXPECT_EQ(metrics["status"]["lost"], 0);
-  // Poses do not depend on what the clock says, only on how it goes on.
-  rilo_succeeds({"run", shared_drive(), "--out", folder / "usual", "--quiet"});
-  const auto poses = read_kitti_poses(out / "poses_lidar.txt");
-  const auto usual = read_kitti_poses(folder / "usual" / "poses_lidar.txt");
-  ASSERT_EQ(poses.size(), usual.size());
-  EXPECT_LT((poses.back().translation() - usual.back().translation()).norm(), 0.05);
 }
 
 TEST(Faults, AMemoryLimitIsSaidAndKeepsTheSweepsBefore) {
@@ -269,16 +162,16 @@ TEST(Faults, TwoRunsIntoOneFolder) {
   const auto plan = folder.write("plan.yaml", "sequences: [{path: '" + shared_drive().string() + "'}]\n");
   {
     CommandProcess first({"run", sweeps, "--out", out, "--threads", "1", "--quiet"});
-    ASSERT_TRUE(first.wait_until([&] { return lines_in(out / "poses_lidar.partial.txt") > 0; }));
+    ASSERT_TRUE(first.wait_until([&] { return complete_lines(out / "poses_lidar.partial.txt") > 0; }));
     rilo_fails(4, {"run", shared_drive(), "--out", out}, {"another rilo is writing"});
     rilo_fails(4, {"bench", plan, "--out", out}, {"another rilo is writing"});
-    EXPECT_GT(lines_in(out / "poses_lidar.partial.txt"), 0U);
+    EXPECT_GT(complete_lines(out / "poses_lidar.partial.txt"), 0U);
     first.send(SIGINT);
     EXPECT_EQ(first.wait().exit_code, 130);
   }
   // Whoever is killed leaves no lock behind.
   CommandProcess killed({"run", sweeps, "--out", out, "--threads", "1", "--quiet"});
-  ASSERT_TRUE(killed.wait_until([&] { return lines_in(out / "poses_lidar.partial.txt") > 0; }));
+  ASSERT_TRUE(killed.wait_until([&] { return complete_lines(out / "poses_lidar.partial.txt") > 0; }));
   killed.send(SIGKILL);
   killed.wait();
   rilo_succeeds({"run", shared_drive(), "--out", out, "--quiet"});

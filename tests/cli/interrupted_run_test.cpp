@@ -1,5 +1,4 @@
 // Runs that do not reach their end.
-#include <algorithm>
 #include <csignal>
 
 #include "cli/drives.hpp"
@@ -11,9 +10,12 @@ namespace {
 constexpr std::size_t kMoreThanIsDone = 2000;  // about a minute's work
 constexpr std::size_t kSweepsBefore = 3;
 
-std::size_t complete_lines(const std::filesystem::path& file) {
-  const std::string text = std::filesystem::exists(file) ? slurp(file) : "";
-  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+// From /proc: whether the process handles the signal rather than being ended by it.
+bool handles(pid_t pid, int signal) {
+  for (const std::string& line : lines_with(slurp("/proc/" + std::to_string(pid) + "/status"), "SigCgt:")) {
+    return (std::stoull(line.substr(line.find('\t')), nullptr, 16) >> (signal - 1) & 1U) != 0;
+  }
+  return false;
 }
 
 // Sends the signal once some sweeps are done.
@@ -47,6 +49,30 @@ TEST(InterruptedRun, CtrlCLeavesAValidPartialResult) { expect_valid_partial_resu
 
 TEST(InterruptedRun, TerminationLeavesAValidPartialResult) { expect_valid_partial_result(SIGTERM, 143); }
 
+// Stopped between the two, so that the second comes before the results of the first however slow the test is.
+TEST(InterruptedRun, ASecondCtrlCEndsItAtOnce) {
+  constexpr int kMostTries = 20;
+  for (int attempt = 0; attempt < kMostTries; ++attempt) {
+    const TempDir folder;
+    const auto out = folder / "out";
+    CommandProcess run({"run", long_folder(folder, kMoreThanIsDone), "--out", out, "--threads", "1"});
+    ASSERT_TRUE(run.wait_until([&] { return complete_lines(out / "poses_lidar.partial.txt") >= kSweepsBefore; }));
+    ASSERT_TRUE(handles(run.pid(), SIGINT));
+    run.send(SIGINT);
+    ASSERT_TRUE(run.wait_until([&] { return !handles(run.pid(), SIGINT); }));
+    run.send(SIGSTOP);
+    if (std::filesystem::exists(out / "poses_lidar.txt")) continue;  // too late: it is writing already
+    run.send(SIGINT);
+    run.send(SIGCONT);
+    const Outcome outcome = run.wait();
+    EXPECT_EQ(outcome.signal, SIGINT) << outcome.err;
+    EXPECT_EQ(files_in(out), 1U) << "more than a killed run leaves";
+    EXPECT_GE(read_kitti_poses(out / "poses_lidar.partial.txt").size(), kSweepsBefore);
+    return;
+  }
+  ADD_FAILURE() << "the results were there before a second signal could be sent, each time";
+}
+
 TEST(InterruptedRun, AKilledRunLeavesAValidPrefix) {
   const TempDir folder;
   const auto sweeps = long_folder(folder, kMoreThanIsDone);
@@ -65,15 +91,17 @@ TEST(InterruptedRun, AKilledRunLeavesAValidPrefix) {
 }
 
 TEST(InterruptedRun, ASimulationStopsToo) {
-  const TempDir folder;
-  const auto out = folder / "drive";
-  CommandProcess simulate({"simulate", "--out", out, "--sensor", "hdl64", "--sweeps", "2000", "--threads", "1"});
-  EXPECT_TRUE(simulate.wait_until([&] { return std::filesystem::exists(sweep_file(out, 0)); }));
-  simulate.send(SIGINT);
-  EXPECT_EQ(simulate.wait().exit_code, 130);
-  const auto info = nlohmann::json::parse(rilo_succeeds({"info", out, "--json"}).out);
-  EXPECT_GE(info["sweeps"], 1);
-  EXPECT_EQ(info["truth"]["poses"], info["sweeps"]);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const TempDir folder;
+    const auto out = folder / "drive";
+    CommandProcess simulate({"simulate", "--out", out, "--sensor", "hdl64", "--sweeps", "2000", "--threads", "1"});
+    EXPECT_TRUE(simulate.wait_until([&] { return std::filesystem::exists(sweep_file(out, 0)); }));
+    simulate.send(signal);
+    EXPECT_EQ(simulate.wait().exit_code, 128 + signal);
+    const auto info = nlohmann::json::parse(rilo_succeeds({"info", out, "--json"}).out);
+    EXPECT_GE(info["sweeps"], 1);
+    EXPECT_EQ(info["truth"]["poses"], info["sweeps"]);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # rilo bench --on slurm against a real Slurm on this machine: the tables of a local run, tasks that are killed, cancelled
-# or out of time and submitted again, a failure that is listed, a driver that is killed. Exit code 77: no Slurm here.
+# or out of time and submitted again, a failure that is listed, a driver that is killed or interrupted, data that change
+# while tasks wait, a controller that does not answer. Exit code 77: no Slurm here.
 set -euo pipefail
 scripts="$1/scripts"
 rilo="${RILO_BIN:?run this through ctest}"
@@ -9,7 +10,9 @@ PATH="$PATH:/usr/sbin:/sbin"
 
 work="$(mktemp -d)"
 driver=""
+controller=""
 finish() {
+  [ -z "$controller" ] || kill -CONT "$controller" || true
   [ -z "$driver" ] || kill -9 "$driver" 2>/dev/null || true
   "$scripts/slurm_local.sh" stop "$work/slurm" || true
   rm -rf "$work"
@@ -26,6 +29,16 @@ wait_for() {
     sleep 0.1
   done
   fail "waited in vain: $*"
+}
+# $work/bin comes before Slurm's own programs: says when one fails, and lets sbatch fail while no_sbatch is there.
+watch_program() {
+  cat >"$work/bin/$1" <<SH
+#!/bin/sh
+if [ $1 = sbatch ] && [ -e "$work/no_sbatch" ]; then code=1; else "$(command -v "$1")" "\$@"; code=\$?; fi
+[ \$code -eq 0 ] || echo \$code >>"$work/$1.failures"
+exit \$code
+SH
+  chmod +x "$work/bin/$1"
 }
 # Every process of the task of a cell; nothing when it does not run.
 task_of() { pgrep -f -- "--out $work/$1 .*--cell $2\$"; }
@@ -107,4 +120,56 @@ driver=""
 bench adopted --on slurm || fail "exit code $?"
 same_tables adopted
 for cell in 0 1 2 3; do [ "$(tasks_had adopted "$cell")" -eq 1 ] || fail "cell $cell was submitted twice"; done
+
+echo "== Ctrl-C: the tasks are cancelled, what is finished is kept"
+start_bench interrupted --on slurm &
+driver=$!
+wait_for task_of interrupted 2
+kill -INT "$driver"
+if wait "$driver"; then code=0; else code=$?; fi
+driver=""
+[ "$code" -eq 130 ] || fail "exit code $code"
+queue_is_empty() { [ -z "$(squeue --noheader --me)" ]; }
+wait_for queue_is_empty
+bench interrupted --on slurm || fail "exit code $?"
+same_tables interrupted
+
+echo "== data that change while tasks wait: these refuse to run, and the table says why"
+start_bench changed --on slurm --sbatch=--hold &
+driver=$!
+wait_for array_of 3
+ln -s "$work/drive/velodyne/000000.bin" "$work/long/000060.bin"
+scontrol release "$(squeue --noheader --me --format=%F | head -n 1)"
+if wait "$driver"; then fail "changed data went unnoticed"; else code=$?; fi
+driver=""
+[ "$code" -eq 3 ] || fail "exit code $code"
+grep -q "2 of 4 cells failed" "$work/changed.err" || fail "not the two cells of the changed data failed"
+for cell in "long × full" "long × A"; do
+  grep -q "failed: $cell: .*is not the one that was submitted: its data, .* Run the benchmark again" \
+    "$work/changed.out" || fail "the reason is not listed: $cell"
+done
+
+echo "== a controller that does not answer, then takes no jobs: the driver asks again"
+rm "$work/long/000060.bin"
+mkdir "$work/bin"
+watch_program squeue
+watch_program sbatch
+controller="$(cat "$work/slurm/slurmctld.pid")"
+PATH="$work/bin:$PATH" start_bench changed --on slurm --jobs 1 --retries 1 &
+driver=$!
+wait_for task_of changed 2
+task_of changed 2 | xargs kill -STOP
+kill -STOP "$controller"
+wait_for test -s "$work/squeue.failures"
+touch "$work/no_sbatch"
+kill -CONT "$controller"
+task_of changed 2 | xargs kill -9
+wait_for test -s "$work/sbatch.failures"
+rm "$work/no_sbatch"
+wait "$driver" || fail "exit code $?"
+driver=""
+same_tables changed
+[ "$(tasks_had changed 0)" -eq 1 ] || fail "a finished cell was run again"
+[ "$(tasks_had changed 2)" -eq 3 ] || fail "cell 2 was not submitted again"
+[ "$(tasks_had changed 3)" -eq 2 ] || fail "cell 3 was lost or submitted twice"
 echo "all as expected"

@@ -30,6 +30,9 @@ TEST(UnwritableOutput, SimulateToo) {
   rilo_fails(4, {"simulate", "--out", file, "--sensor", "vlp16", "--sweeps", "2"}, {"results"});
   rilo_fails(4, {"simulate", "--out", "/proc/drive", "--sensor", "vlp16", "--sweeps", "2"}, {"/proc/drive"});
   EXPECT_EQ(slurp(file), "mine");
+  rilo_fails(4, {"simulate", "--out", folder.path(), "--sensor", "vlp16", "--sweeps", "2"}, {"results", "choose"});
+  EXPECT_EQ(slurp(file), "mine");
+  EXPECT_EQ(files_in(folder.path()), 1U);
 }
 
 }  // namespace

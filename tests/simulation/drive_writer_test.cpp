@@ -137,6 +137,17 @@ TEST_F(DriveWriterTest, LeavesOtherPeoplesFilesAlone) {
   EXPECT_EQ(text("times.txt"), "0\n");
 }
 
+TEST_F(DriveWriterTest, TakesAwayWhatAKilledOneLeftButNotALock) {
+  fs::create_directories(folder_ / "velodyne");
+  std::ofstream(folder_ / "velodyne" / "000007.bin.tmp") << "half";
+  std::ofstream(folder_ / "poses.txt.tmp") << "half";
+  std::ofstream(folder_ / ".rilo.lock") << "held";
+  write_drive(DriveSimulator(config(1, true)), folder_);
+  EXPECT_FALSE(fs::exists(folder_ / "poses.txt.tmp"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "velodyne"), fs::directory_iterator()), 1);
+  EXPECT_EQ(text(".rilo.lock"), "held");
+}
+
 TEST_F(DriveWriterTest, SaysWhereItCannotWrite) {
   std::ofstream(root_ / "file") << "no folder";
   try {

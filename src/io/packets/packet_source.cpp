@@ -118,7 +118,10 @@ std::optional<Sweep> PacketSource::next() {
   while (true) {
     // One more than the next: only then is it known whether that is the last.
     while (!ended_ && ready_.size() < 2) fill();
-    if (ready_.empty()) return std::nullopt;
+    if (ready_.empty()) {
+      refuse_shortened();
+      return std::nullopt;
+    }
     DecodedSweep done = std::move(ready_.front());
     ready_.pop_front();
     const bool first = !std::exchange(started_, true);
@@ -132,6 +135,13 @@ std::optional<Sweep> PacketSource::next() {
     set_times(done.sweep);
     return std::move(done.sweep);
   }
+}
+
+// After the sweeps that are whole, and once. To leave it out is to be content with these.
+void PacketSource::refuse_shortened() {
+  if (!reader_.shortened() || std::exchange(refused_, true) || options_.on_bad_sweep == OnBadSweep::kSkip) return;
+  throw IoError({reader_.file(), "after sweep " + std::to_string(given_), "the file has become shorter",
+                 "a file that stays as it is while it is read", "Check the disk, and that nobody writes the file"});
 }
 
 std::size_t PacketSource::skip(std::size_t count) {

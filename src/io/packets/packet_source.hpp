@@ -28,6 +28,7 @@ class PacketSource final : public ScanSource {
 
  private:
   void fill();
+  void refuse_shortened();
   void find_period();
   void set_times(Sweep& sweep) const;
 
@@ -39,6 +40,7 @@ class PacketSource final : public ScanSource {
   std::size_t given_ = 0;
   std::size_t left_out_ = 0;  // the parts of a turn at the beginning and the end
   bool started_ = false;
+  bool refused_ = false;
   bool ended_ = false;
 };
 

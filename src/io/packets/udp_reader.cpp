@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <pcap/pcap.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <utility>
 
@@ -50,6 +51,11 @@ std::optional<std::string_view> after_ethernet(std::string_view frame) {
   return std::nullopt;
 }
 
+std::int64_t bytes_of(std::FILE* stream) {
+  struct stat status {};
+  return ::fstat(::fileno(stream), &status) == 0 ? static_cast<std::int64_t>(status.st_size) : 0;
+}
+
 }  // namespace
 
 void UdpReader::Close::operator()(pcap* capture) const { pcap_close(capture); }
@@ -58,6 +64,7 @@ UdpReader::UdpReader(std::filesystem::path file) : file_(std::move(file)) {
   std::error_code error;
   std::FILE* stream = std::filesystem::is_regular_file(file_, error) ? std::fopen(file_.c_str(), "rbe") : nullptr;
   if (stream == nullptr) throw IoError({file_, "", "it cannot be opened", "a readable pcap file", "Check the path"});
+  bytes_when_opened_ = bytes_of(stream);
   std::array<char, PCAP_ERRBUF_SIZE> message{};
   capture_.reset(pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, message.data()));
   if (!capture_) {
@@ -98,6 +105,9 @@ std::optional<Datagram> UdpReader::next() {
     const int code = pcap_next_ex(capture_.get(), &header, &data);
     if (code != 1) {
       if (code == PCAP_ERROR) end_ = pcap_geterr(capture_.get());
+      // To libpcap that is an end like any other.
+      shortened_ = bytes_of(pcap_file(capture_.get())) < bytes_when_opened_;
+      if (shortened_) end_ = "the file has become shorter";
       capture_.reset();
       break;
     }

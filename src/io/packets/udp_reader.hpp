@@ -35,6 +35,8 @@ class UdpReader {
   std::optional<Datagram> next();
 
   const std::filesystem::path& file() const { return file_; }
+  /// Whether it ended where it did because the file lost bytes while it was read.
+  bool shortened() const { return shortened_; }
   /// Sentences for the user.
   std::vector<std::string> warnings() const;
 
@@ -59,6 +61,8 @@ class UdpReader {
   std::filesystem::path file_;
   std::unique_ptr<pcap, Close> capture_;
   int link_ = 0;
+  std::int64_t bytes_when_opened_ = 0;
+  bool shortened_ = false;
   std::deque<Fragments> fragments_;
   std::string whole_;  // the datagram put together last
   std::size_t cut_packets_ = 0;

@@ -42,6 +42,17 @@ SH
 }
 # Every process of the task of a cell; nothing when it does not run.
 task_of() { pgrep -f -- "--out $work/$1 .*--cell $2\$"; }
+# Again until no process of the task has come meanwhile: one that has just been started is about to start another.
+stop_task() {
+  local stopped="" now
+  wait_for task_of "$1" "$2"
+  now="$(task_of "$1" "$2")"
+  while [ "$now" != "$stopped" ]; do
+    echo "$now" | xargs kill -STOP
+    stopped="$now"
+    now="$(task_of "$1" "$2")"
+  done
+}
 # How many tasks the cell has had.
 tasks_had() { find "$work/$1/slurm" -name "*_$2.log" | wc -l; }
 array_of() { squeue --noheader --me --array --format=%F_%K | grep "_$1\$"; }
@@ -87,8 +98,7 @@ wait_for task_of broken 0
 task_of broken 0 | head -n 1 | xargs kill -9
 wait_for task_of broken 1
 scancel "$(array_of 1)"
-wait_for task_of broken 2
-task_of broken 2 | xargs kill -STOP
+stop_task broken 2
 scontrol update JobId="$(array_of 2)" EndTime="$(date -d '+1 second' +%Y-%m-%dT%H:%M:%S)"
 wait "$driver" || fail "exit code $?"
 driver=""
@@ -155,10 +165,12 @@ mkdir "$work/bin"
 watch_program squeue
 watch_program sbatch
 controller="$(cat "$work/slurm/slurmctld.pid")"
-PATH="$work/bin:$PATH" start_bench changed --on slurm --jobs 1 --retries 1 &
+# Slurm's programs wait ten seconds for an answer unless told otherwise.
+cp "$SLURM_CONF" "$work/slurm/impatient.conf"
+echo "MessageTimeout=2" >>"$work/slurm/impatient.conf"
+SLURM_CONF="$work/slurm/impatient.conf" PATH="$work/bin:$PATH" start_bench changed --on slurm --jobs 1 --retries 1 &
 driver=$!
-wait_for task_of changed 2
-task_of changed 2 | xargs kill -STOP
+stop_task changed 2
 kill -STOP "$controller"
 wait_for test -s "$work/squeue.failures"
 touch "$work/no_sbatch"

@@ -82,9 +82,9 @@ CutRecording long_pcap(const TempDir& folder) {
 
 // Runs, stops after the first sweep, changes the recording, goes on.
 Outcome run_meanwhile(const fs::path& file, const fs::path& out, const std::function<void()>& change,
-                      bool one_pass = true) {
+                      const std::string& option = "--one-pass") {
   std::vector<std::string> arguments = {"run", file, "--out", out, "--threads", "1", "--quiet"};
-  if (one_pass) arguments.emplace_back("--one-pass");
+  if (!option.empty()) arguments.push_back(option);
   CommandProcess run(arguments);
   EXPECT_TRUE(run.wait_until([&] { return complete_lines(out / "poses_lidar.partial.txt") > 0; }));
   run.send(SIGSTOP);
@@ -125,6 +125,19 @@ TEST(FaultsOfRecordings, AnMcapFileBecomesShorter) { expect_shortened(long_mcap,
 TEST(FaultsOfRecordings, ADatabaseBecomesShorter) { expect_shortened(long_db3, "malformed"); }
 TEST(FaultsOfRecordings, ACaptureBecomesShorter) { expect_shortened(long_pcap, "the file has become shorter"); }
 
+// Synthetic turns tell nothing of the sensor: the run does not start over.
+TEST(FaultsOfRecordings, ACaptureThatBecomesShorterMayBeLeftAtThat) {
+  const TempDir folder;
+  const CutRecording recording = long_pcap(folder);
+  const Outcome outcome = run_meanwhile(
+      recording.file, folder / "out", [&] { fs::resize_file(recording.file, recording.cut); }, "--skip-bad-sweeps");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("the file has become shorter"));
+  const std::size_t kept = json_file(folder / "out" / "metrics.json")["frames"];
+  EXPECT_GE(kept, kCutAt - 1);
+  EXPECT_LE(kept, kCutAt);
+}
+
 TEST(FaultsOfRecordings, AnMcapFileIsReplaced) { expect_old_one_read_to_its_end(long_mcap); }
 TEST(FaultsOfRecordings, ADatabaseIsReplaced) { expect_old_one_read_to_its_end(long_db3); }
 TEST(FaultsOfRecordings, ACaptureIsReplaced) { expect_old_one_read_to_its_end(long_pcap); }
@@ -136,7 +149,7 @@ TEST(FaultsOfRecordings, OneThatIsReplacedBeforeTheRunStartsOverKeepsTheSweepsBe
   const fs::path file = long_mcap(folder).file;
   const auto other = folder.write("other", "not a recording");
   const Outcome outcome = run_meanwhile(
-      file, out, [&] { fs::rename(other, file); }, false);
+      file, out, [&] { fs::rename(other, file); }, "");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("the start of an MCAP file"));
   const std::size_t kept = json_file(out / "metrics.json")["frames"];

@@ -94,6 +94,12 @@ def first_of(topic, kind):
         collector.subscriber.unregister()
 
 
+def delete_parameters(name):
+    """All of a node; it may have had none."""
+    if rospy.has_param(name):
+        rospy.delete_param(name)
+
+
 @contextmanager
 def running_node(parameters=None, remaps=(), name="rilo", binary=os.environ.get("RILO_NODE", "rilo_node")):
     """The node with parameters of its own; they are gone afterwards."""
@@ -105,5 +111,4 @@ def running_node(parameters=None, remaps=(), name="rilo", binary=os.environ.get(
         yield process
     finally:
         stop(process)
-        if rospy.has_param(full):
-            rospy.delete_param(full)
+        delete_parameters(full)

@@ -21,7 +21,7 @@ from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
 import ros_bag
-from ros_system import Collector, first_of, play, running_node, start_roscore, stop, wait_for
+from ros_system import Collector, delete_parameters, first_of, play, running_node, start_roscore, stop, wait_for
 
 SWEEPS = 30
 AT_ONCE = {"queue": 0, "look_ahead": 0}  # every sweep is registered, and at once
@@ -367,4 +367,4 @@ def test_the_launch_file(topics, drive):
         np.testing.assert_allclose(poses_of(topics.odometry.messages), drive.offline.poses[:13], rtol=0, atol=1e-9)
     finally:
         stop(launch)
-        rospy.delete_param("/rilo")
+        delete_parameters("/rilo")

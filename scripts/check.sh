@@ -15,10 +15,11 @@
 #   fuzz            every parser, RILO_FUZZ_SECONDS (60) each
 #   coverage        lines of the core that its tests reach, at least 90 %
 #   instructions    instructions a sweep, against benchmarks/instructions.txt
+#   package         Debian packages with shared libraries; the command in them simulates and runs a drive
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-phases=(test lint docs sanitize threads fuzz coverage instructions)
+phases=(test lint docs sanitize threads fuzz coverage instructions package)
 
 # Long drives, and tests that run the whole command many times over code that others run, too, take half an hour of
 # sanitizers.
@@ -39,12 +40,13 @@ run_phase() {
     fuzz) scripts/fuzz.sh "${RILO_FUZZ_SECONDS:-60}" ;;
     coverage) scripts/coverage.sh ;;
     instructions) scripts/instructions.sh ;;
+    package) scripts/package.sh --try ;;
   esac
 }
 
 # The line of a log that says how it went.
 verdict() {
-  grep -hE 'tests passed, .* tests failed out of|^lint: clean|^lint.sh: failed|^Site: |nothing found$|^lines: |^committed: ' \
+  grep -hE 'tests passed, .* tests failed out of|^lint: clean|^lint.sh: failed|^Site: |nothing found$|^lines: |^committed: |^packages: ' \
     "$1" | tail -n 1 || true
 }
 

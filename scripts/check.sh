@@ -25,8 +25,9 @@ phases=(test lint docs sanitize threads fuzz coverage instructions package)
 # sanitizers.
 long='Elevation.(AnErrorIsFound|ASensorWithoutError)|BeamCalibration.AWorseUnit|Covariance'
 commands='Bench(Command|Resume|PaperCommand)|(Quality|Eval|Report)Command|RunFlags|StartOver|Faults|InterruptedRun'
-# What has threads of its own, and what runs in oneTBB's.
+# What has threads of its own, and what runs in oneTBB's; and the programs with these tests.
 threaded='Pipeline|Preprocess|LocalMap|CoarseRegistration|AdaptiveIcp|PrefetchSource|Live(Source|Queue)|View(Server|History)'
+threaded_programs='core_floor_test core_test core_registration_test io_test view_test'
 
 run_phase() {
   case "$1" in
@@ -36,7 +37,8 @@ run_phase() {
     sanitize) scripts/sanitize.sh ;;
     sanitize-short)
       scripts/sanitize.sh --exclude-regex "^($long|$commands|consumer|view_page|slurm_bench)" ;;
-    threads) PRESET=tsan scripts/sanitize.sh --tests-regex "$threaded" --exclude-regex "^($long|$commands|view_page)" ;;
+    threads)
+      PRESET=tsan TARGETS="$threaded_programs" scripts/sanitize.sh --tests-regex "$threaded" --exclude-regex "^($long)" ;;
     fuzz) scripts/fuzz.sh "${RILO_FUZZ_SECONDS:-60}" ;;
     coverage) scripts/coverage.sh ;;
     instructions) scripts/instructions.sh ;;

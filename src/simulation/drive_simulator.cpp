@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "cloud/fixed_chunks.hpp"
 #include "rilo/geometry/degrees.hpp"
 #include "simulation/counter_random.hpp"
 #include "simulation/town.hpp"
@@ -175,7 +174,7 @@ SimulatedSweep DriveSimulator::sweep(std::size_t i) const {
     parts[k] = impl_->cast_columns(i, k * kChunk, std::min(columns, (k + 1) * kChunk), T_mid_world);
   };
   tbb::task_arena arena(config().threads > 0 ? config().threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, parts.size(), cast_part); });
+  arena.execute([&] { for_each_index(parts.size(), cast_part); });
   for (Sweep& part : parts) append(result.sweep, std::move(part));
   return result;
 }

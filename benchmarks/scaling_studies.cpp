@@ -1,7 +1,6 @@
 #include "scaling_studies.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -11,6 +10,7 @@
 
 #include "measured_row.hpp"
 #include "rilo/odometry/odometry.hpp"
+#include "rilo/session/steady_clock.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 
 namespace rilo::bench {
@@ -19,11 +19,6 @@ namespace {
 constexpr double kDrivingS = 20;         // the vehicle is at full speed by then
 constexpr double kPeriodS = 0.1;         // of a sweep
 constexpr std::size_t kMemoryRows = 40;  // at most that many lines of the memory study
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 using Change = std::function<Sweep(const Sweep&)>;
 
@@ -53,7 +48,7 @@ void measure(const std::string& study, const DriveConfig& drive, std::size_t war
   const DriveSimulator simulator(drive);
   std::vector<Odometry> odometries;
   for (const Variant& variant : variants) {
-    odometries.emplace_back(variant.config, now_ns);
+    odometries.emplace_back(variant.config, steady_ns);
   }
   std::vector<MeasuredRow> rows(variants.size());
   for (std::size_t i = 0; i < simulator.size(); ++i) {
@@ -175,7 +170,7 @@ void study_memory(const StudySize& size, std::ostream& out) {
   const std::vector<std::vector<Eigen::Vector3f>> sweeps = closed_drive();
   const std::size_t turn = sweeps.size() - 1;
   const std::size_t each = std::max<std::size_t>(size.measured / kMemoryRows, 1);
-  Odometry odometry(single_thread(), now_ns);
+  Odometry odometry(single_thread(), steady_ns);
   MeasuredRow row;
   Sweep sweep;
   for (std::size_t i = 0; i < size.measured; ++i) {

@@ -23,6 +23,13 @@ function(rilo_set_warnings target)
   endif()
 endfunction()
 
+# A library of the command and its tests alone, with its headers beside its sources: target rilo_NAME.
+function(rilo_add_internal_library name)
+  add_library(rilo_${name} STATIC ${ARGN})
+  target_include_directories(rilo_${name} PUBLIC "${PROJECT_SOURCE_DIR}/src")
+  rilo_set_warnings(rilo_${name})
+endfunction()
+
 # One library of ours beside the core: target rilo_NAME, alias and exported name rilo::NAME; RiloInstall installs it
 # as component NAME of find_package(rilo).
 function(rilo_add_library name)

@@ -9,7 +9,6 @@ set(RILO_PACKAGE_TABLE
   "TBB::tbb=TBB"
   "yaml-cpp=yaml-cpp"
   "fmt::fmt=fmt"
-  "spdlog::spdlog=spdlog"
   "nlohmann_json::nlohmann_json=nlohmann_json"
   "nanoflann::nanoflann=nanoflann"
   "CLI11::CLI11=CLI11"

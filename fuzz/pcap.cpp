@@ -5,8 +5,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const rilo::fuzz::MemoryFile file(rilo::fuzz::bytes_of(data, size));
   rilo::fuzz::only_io_errors([&] {
-    rilo::detail::PacketSource source(file.path(), {});
-    rilo::fuzz::read_all(source);
+    const auto source = rilo::detail::open_capture(file.path(), {});
+    rilo::fuzz::read_all(*source);
   });
   return 0;
 }

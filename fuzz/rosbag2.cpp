@@ -26,8 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::ofstream(folder() / "metadata.yaml", std::ios::binary) << metadata;
   for (const char* name : {"a.db3", "a.db3.zstd"}) std::ofstream(folder() / name, std::ios::binary) << storage;
   rilo::fuzz::only_io_errors([&] {
-    rilo::detail::RecordingSource source(folder(), rilo::detail::open_rosbag2(folder()), {});
-    rilo::fuzz::read_all(source);
+    const auto source = rilo::detail::open_recording(folder(), rilo::detail::open_rosbag2(folder()), {});
+    rilo::fuzz::read_all(*source);
   });
   return 0;
 }

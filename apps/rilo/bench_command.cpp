@@ -10,12 +10,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench_paper.hpp"
-#include "bench_runner.hpp"
+#include "bench/paper.hpp"
+#include "bench/peer_figures.hpp"
+#include "bench/runner.hpp"
 #include "checks.hpp"
 #include "command.hpp"
+#include "console/text.hpp"
 #include "rilo/config/config_file.hpp"
-#include "text.hpp"
+#include "source_flags.hpp"
 
 namespace rilo::cli {
 
@@ -39,6 +41,7 @@ Examples:
   rilo bench experiments/ablation.yaml --data drives/a drives/b
   rilo bench my.yaml --count 200 --baseline results/results.json
   rilo bench my.yaml --out results --on slurm --sbatch=--time=60 --retries 2
+  rilo bench experiments/panel.yaml --root drives --peer-figures peers.csv --out results
   rilo bench show results
   rilo bench kitti data/kitti --out results/kitti
   rilo bench m2dgr data/m2dgr)";
@@ -68,6 +71,8 @@ Example:
 struct BenchFlags {
   std::string plan;
   std::vector<std::string> data;
+  std::vector<std::string> peers;
+  std::string peer_figures;
   std::string root;  // of the plan's sequences, or of the data set
   std::string config_file;
   std::vector<std::string> settings;
@@ -75,6 +80,7 @@ struct BenchFlags {
   std::optional<std::size_t> cell;
   std::string format = "text";
   bool no_times = false;
+  bool paired = false;
   BenchOrder order;
 };
 
@@ -104,20 +110,44 @@ void leave_out_missing(const BenchFlags& flags, BenchPlan& plan) {
     }
   }
   if (there.empty()) {
-    throw CommandError(kBadData, flags.plan + ": none of its sequences is there: " + missing +
-                                     "; name the folder that they lie in with --root");
+    throw RunError(RunErrorKind::kBadData, flags.plan + ": none of its sequences is there: " + missing +
+                                               "; name the folder that they lie in with --root");
   }
   if (!missing.empty() && !flags.order.run.quiet) std::cerr << "left out, as they are not there: " << missing << '\n';
   plan.sequences = there;
+}
+
+// Of the plan and of the command line, which goes before it.
+void add_peers(BenchFlags& flags, BenchPlan& plan) {
+  std::vector<BenchPeer> peers;
+  for (const std::string& text : flags.peers) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+      throw RunError(RunErrorKind::kUsage,
+                     "--peer " + text + ": expected NAME=FILE, {sequence} in it for a sequence's name");
+    }
+    peers.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  const auto named = [&](const std::string& name) {
+    return std::any_of(peers.begin(), peers.end(), [&](const BenchPeer& peer) { return peer.name == name; });
+  };
+  std::copy_if(plan.peers.begin(), plan.peers.end(), std::back_inserter(peers),
+               [&](const BenchPeer& peer) { return !named(peer.name); });
+  plan.peers = peers;
+  give_peers(plan);
+  if (!flags.peer_figures.empty()) plan.peer_figures = flags.peer_figures;
+  if (!plan.peer_figures.empty()) flags.order.peer_figures = read_peer_figures(plan.peer_figures);
 }
 
 std::vector<BenchJob> plan_jobs(BenchFlags& flags) {
   BenchPlan plan = load_bench_plan(flags.plan, flags.root);
   if (!flags.data.empty()) plan.sequences = sequences_of(flags);
   if (plan.sequences.empty()) {
-    throw CommandError(kUsage, flags.plan + ": no sequences: in it; expected them there or folders after --data");
+    throw RunError(RunErrorKind::kUsage,
+                   flags.plan + ": no sequences: in it; expected them there or folders after --data");
   }
   if (plan.skip_missing && flags.data.empty()) leave_out_missing(flags, plan);
+  add_peers(flags, plan);
   if (flags.repeats) plan.repeats = *flags.repeats;
   flags.order.tables = plan.tables;
   return jobs_of(plan);
@@ -196,6 +226,7 @@ void add_show_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags)
       ->check(path_given());
   command->add_option("--format", flags->format, "text (default), markdown, csv")
       ->check(CLI::IsMember({"text", "markdown", "csv"}));
+  command->add_flag("--paired", flags->paired, "the paired comparison with the peers alone");
   command->add_flag("--no-times", flags->no_times,
                     "leave out the columns of time and memory: what is left is the same on every machine");
 }
@@ -203,10 +234,11 @@ void add_show_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags)
 int run_jobs(const BenchFlags& flags, std::vector<BenchJob> jobs) {
   const BenchOrder& order = flags.order;
   if (order.out.empty() && (order.on_slurm || flags.cell)) {
-    throw CommandError(kUsage, "bench: --on slurm needs --out, a folder on a file system that the nodes share");
+    throw RunError(RunErrorKind::kUsage,
+                   "bench: --on slurm needs --out, a folder on a file system that the nodes share");
   }
   if (!order.on_slurm && !order.sbatch.empty()) {
-    throw CommandError(kUsage, "bench: --sbatch goes with --on slurm");
+    throw RunError(RunErrorKind::kUsage, "bench: --sbatch goes with --on slurm");
   }
   return flags.cell ? run_bench_cell(order, std::move(jobs), *flags.cell) : run_bench(order, std::move(jobs));
 }
@@ -216,15 +248,16 @@ int bench_command(const CLI::App& command, BenchFlags& flags) {
   if (!chosen.empty()) {
     const std::string name = chosen.front()->get_name();
     if (!flags.plan.empty() || !flags.data.empty() || command.count("--root") > 0) {
-      throw CommandError(kUsage, "bench: FILE, --root and --data do not go with " + name + ". See: rilo bench --help");
+      throw RunError(RunErrorKind::kUsage,
+                     "bench: FILE, --root and --data do not go with " + name + ". See: rilo bench --help");
     }
     if (name == "show") {
-      show_bench(flags.root, flags.format, !flags.no_times);
+      show_bench(flags.root, {flags.format, flags.paired, !flags.no_times});
       return kSuccess;
     }
     return run_jobs(flags, paper_jobs(flags, name == "kitti" ? PaperTables::kKitti : PaperTables::kM2dgr));
   }
-  if (flags.plan.empty()) throw CommandError(kUsage, "bench: FILE is required. See: rilo bench --help");
+  if (flags.plan.empty()) throw RunError(RunErrorKind::kUsage, "bench: FILE is required. See: rilo bench --help");
   return run_jobs(flags, plan_jobs(flags));
 }
 
@@ -239,6 +272,15 @@ void add_bench_command(CLI::App& app, const std::string& command_line, int& exit
   command->add_option("--root", flags->root, "folder that the paths of FILE's sequences count from; default: FILE's")
       ->check(path_given());
   command->add_option("--data", flags->data, "folders or files with sweeps, in the place of FILE's sequences")
+      ->check(path_given());
+  command
+      ->add_option("--peer", flags->peers,
+                   "NAME=FILE, repeatable: poses by another program, compared on the same sweeps; {sequence} in FILE "
+                   "stands for the name of each sequence")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--peer-figures", flags->peer_figures,
+                   "CSV with figures of other programs: columns drive, peer, t_rel_pct and more")
       ->check(path_given());
   add_common_flags(*command, *flags);
   add_source_flags(*command, flags->order.run.source);

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -28,7 +29,7 @@ CLI::Validator number_within(double least, double most) {
             const auto value = parse<double>(text);
             // False for NaN.
             if (value && *value >= least && *value <= most) return std::string();
-            return fmt::format("\"{}\" is no number from {} to {}", text, least, most);
+            return fmt::format("\"{}\" is not a number from {} to {}", text, least, most);
           },
           ""};
 }
@@ -37,7 +38,10 @@ CLI::Validator whole_number(std::int64_t most) {
   return {[=](std::string& text) {
             const auto value = parse<std::int64_t>(text);
             if (value && *value >= 0 && *value <= most) return std::string();
-            return fmt::format("\"{}\" is no whole number from 0 to {}", text, most);
+            if (most == std::numeric_limits<std::int64_t>::max()) {
+              return fmt::format("\"{}\" is not a non-negative integer", text);
+            }
+            return fmt::format("\"{}\" is not an integer from 0 to {}", text, most);
           },
           ""};
 }

@@ -51,7 +51,7 @@ void add_config_command(CLI::App& app, int& exit_code) {
   command->add_flag("--markdown", flags->markdown, "with --dump: as tables for the documentation")->needs(dump);
   command->callback([flags, &exit_code] {
     if (!flags->dump && flags->check.empty()) {
-      throw CommandError(kUsage, "config: give --dump or --check FILE");
+      throw RunError(RunErrorKind::kUsage, "config: give --dump or --check FILE");
     }
     exit_code = config(*flags);
   });

@@ -8,9 +8,9 @@
 
 #include "command.hpp"
 #include "command_tree.hpp"
+#include "console/version.hpp"
 #include "man_page.hpp"
 #include "shell_completion.hpp"
-#include "version.hpp"
 
 namespace rilo::cli {
 

@@ -8,9 +8,11 @@
 
 #include "checks.hpp"
 #include "command.hpp"
-#include "evaluation_output.hpp"
-#include "pose_files.hpp"
-#include "text.hpp"
+#include "console/text.hpp"
+#include "results/evaluation_output.hpp"
+#include "results/metrics_json.hpp"
+#include "results/pose_files.hpp"
+#include "results/run_metrics.hpp"
 
 namespace rilo::cli {
 
@@ -52,7 +54,7 @@ Sequence evaluate_pair(const EvalFlags& flags, const std::string& truth_path, co
 }
 
 nlohmann::json sequence_json(const Sequence& sequence) {
-  nlohmann::json json = evaluation_json(sequence.evaluation);
+  nlohmann::json json = to_json(evaluation_metrics(sequence.evaluation));
   json["truth"] = sequence.truth;
   json["estimate"] = sequence.estimate;
   json["protocol"] = sequence.protocol;
@@ -79,7 +81,7 @@ void print_table(const std::vector<Sequence>& sequences, const KittiBenchmark& b
 }
 
 int eval(const EvalFlags& flags) {
-  if (flags.more.size() % 2 != 0) throw CommandError(kUsage, "eval: further files come in pairs GT EST");
+  if (flags.more.size() % 2 != 0) throw RunError(RunErrorKind::kUsage, "eval: further files come in pairs GT EST");
   std::vector<Sequence> sequences = {evaluate_pair(flags, flags.truth, flags.estimate)};
   for (std::size_t i = 0; i + 1 < flags.more.size(); i += 2) {
     sequences.push_back(evaluate_pair(flags, flags.more[i], flags.more[i + 1]));

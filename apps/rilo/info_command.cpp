@@ -9,11 +9,14 @@
 
 #include "checks.hpp"
 #include "command.hpp"
+#include "console/text.hpp"
+#include "results/metrics_json.hpp"
+#include "rilo/evaluation/percentile.hpp"
 #include "rilo/io/ground_truth.hpp"
 #include "rilo/io/io_error.hpp"
+#include "rilo/io/pose_writer.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "source_flags.hpp"
-#include "text.hpp"
 
 namespace rilo::cli {
 
@@ -21,7 +24,7 @@ namespace {
 
 struct InfoFlags {
   std::string data;
-  SourceFlags source;
+  SourceRequest source;
   bool json = false;
   bool all = false;
 };
@@ -35,7 +38,7 @@ struct Survey {
   std::size_t least = 0;
   std::size_t most = 0;
   std::size_t not_finite = 0;
-  std::vector<float> ranges;
+  std::vector<double> ranges;
   std::vector<std::int64_t> stamps;
   float times_begin = 0;
   float times_end = 0;
@@ -55,7 +58,7 @@ void look_at(const Sweep& sweep, Survey& survey) {
     const bool finite = sweep.points[i].allFinite();
     survey.not_finite += finite ? 0 : 1;
     if (finite && i % stride == 0) {
-      survey.ranges.push_back(sweep.points[i].norm());
+      survey.ranges.push_back(sweep.points[i].cast<double>().norm());
     }
   }
   if (!sweep.times_s.empty()) {
@@ -82,15 +85,15 @@ Survey survey_of(ScanSource& source, bool all) {
   return survey;
 }
 
-nlohmann::json range_percentiles(std::vector<float> ranges) {
+nlohmann::json range_percentiles(std::vector<double> ranges) {
   if (ranges.empty()) {
     return nullptr;
   }
   std::sort(ranges.begin(), ranges.end());
-  const auto at = [&](double share) {
-    return ranges[static_cast<std::size_t>(share * static_cast<double>(ranges.size() - 1))];
-  };
-  return {{"p5", at(0.05)}, {"median", at(0.5)}, {"p95", at(0.95)}, {"max", ranges.back()}};
+  return {{"p5", percentile(ranges, 0.05)},
+          {"median", percentile(ranges, 0.5)},
+          {"p95", percentile(ranges, 0.95)},
+          {"max", ranges.back()}};
 }
 
 nlohmann::json stamps_json(const Survey& survey, const SourceInfo& info, bool complete) {
@@ -98,6 +101,7 @@ nlohmann::json stamps_json(const Survey& survey, const SourceInfo& info, bool co
   if (survey.stamps.empty()) {
     return json;
   }
+  json["begin_s"] = format_stamp(survey.stamps.front());
   json["span_s"] = static_cast<double>(survey.stamps.back() - survey.stamps.front()) * 1e-9;
   if (complete) {
     const StampFaults& faults = info.faults;
@@ -142,7 +146,7 @@ nlohmann::json describe(const InfoFlags& flags) {
       {"truth", truth_json(flags.data)},
       {"topic", info.topic},
       {"frame_id", info.frame_id},
-      {"stamp_faults", stamp_faults_json(info.faults)},
+      {"stamp_faults", to_json(info.faults)},
       {"bad_sweeps", info.bad_sweeps},
       {"warnings", info.warnings},
   };
@@ -151,6 +155,14 @@ nlohmann::json describe(const InfoFlags& flags) {
     json["point_times"]["end_s"] = survey.times_end;
   }
   return json;
+}
+
+/// What to run next. Whether points without times are raw cannot be seen.
+std::string advice(const nlohmann::json& j) {
+  const std::string run = "rilo run " + shell_quoted(j["data"].get<std::string>()) + " --out results";
+  if (j["point_times"].contains("begin_s")) return "to run it     " + run + "\n";
+  return "to run it     " + run + " --point-times azimuth   (raw points of a spinning sensor)\n" + "              " +
+         run + " --point-times none      (points that are motion-compensated)\n";
 }
 
 std::string as_text(const nlohmann::json& j) {
@@ -172,8 +184,13 @@ std::string as_text(const nlohmann::json& j) {
                         range["max"].get<double>());
   }
   const auto& stamps = j["stamps"];
-  text += fmt::format("stamps        every {:.4f} s{}", stamps["period_s"].get<double>(),
+  text += fmt::format("stamps        every {:.4f} s ({:.2f} Hz){}", stamps["period_s"].get<double>(),
+                      1.0 / stamps["period_s"].get<double>(),
                       stamps["assumed"].get<bool>() ? " (assumed: the data has none)" : "");
+  if (stamps.contains("span_s")) {
+    text += fmt::format(", from {} s on for {:.1f} s", stamps["begin_s"].get<std::string>(),
+                        stamps["span_s"].get<double>());
+  }
   if (stamps.contains("gaps")) {
     text += fmt::format(", {} gaps, {} not increasing", stamps["gaps"].get<std::size_t>(),
                         stamps["not_increasing"].get<std::size_t>());
@@ -183,8 +200,9 @@ std::string as_text(const nlohmann::json& j) {
     text += fmt::format(", {:.4f} … {:.4f} s", j["point_times"]["begin_s"].get<double>(),
                         j["point_times"]["end_s"].get<double>());
   }
-  text += fmt::format("\nfields        intensity {}, rings {}\n", j["intensity"].get<bool>() ? "yes" : "no",
-                      j["rings"].get<int>());
+  const int rings = j["rings"].get<int>();
+  text += fmt::format("\nfields        intensity: {}; ring: {}\n", j["intensity"].get<bool>() ? "yes" : "no",
+                      rings == 0 ? "no" : fmt::format("0 … {}", rings - 1));
   text += fmt::format("calibration   {}\n", j["calibration"].get<bool>() ? "LiDAR to camera (Tr)" : "none");
   const auto& truth = j["truth"];
   if (truth.is_null()) {
@@ -198,7 +216,7 @@ std::string as_text(const nlohmann::json& j) {
   for (const auto& warning : j["warnings"]) {
     text += "warning       " + warning.get<std::string>() + "\n";
   }
-  return text;
+  return text + advice(j);
 }
 
 }  // namespace

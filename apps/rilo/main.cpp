@@ -5,20 +5,21 @@
 #include <CLI/CLI.hpp>
 
 #include "command.hpp"
+#include "console/failure.hpp"
+#include "console/text.hpp"
+#include "console/version.hpp"
 #include "describe_command.hpp"
-#include "failure.hpp"
-#include "text.hpp"
-#include "version.hpp"
+#include "usage_error.hpp"
 
 namespace {
 
 constexpr const char* kFooter = R"(Examples:
-  rilo simulate --out drive --sensor hdl64 --sweeps 200     make a drive to play with
+  rilo simulate --out drive --sensor hdl64 --sweeps 200     simulate a test drive
   rilo run drive --out results --map results/map.ply        odometry, map, figures, report.html
   rilo eval drive results/poses_lidar.txt                   errors against ground truth
-  rilo quality drive results/poses_lidar.txt                how crisp the map is; needs no ground truth
+  rilo quality drive results/poses_lidar.txt                how sharp the map is; needs no ground truth
   rilo run drive --view                                     watch it in a browser while it runs
-  rilo view results                                         look at it again
+  rilo view results                                         replay it
   rilo bench experiments/ablation.yaml --data drive         several configurations on several drives
   rilo report results other-results                         one page that compares runs
   rilo config --dump > my.yaml                              every key with its unit and meaning
@@ -35,15 +36,15 @@ int fail(int code, const std::string& message) {
 
 int main(int argc, char** argv) {
   using namespace rilo;
-  int exit_code = cli::kSuccess;
+  int exit_code = kSuccess;
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error with a message, as a full disk
   CLI::App app{"Rilo: LiDAR-only odometry with a reliable initial pose", "rilo"};
-  app.set_version_flag("--version", std::string("rilo ") + cli::kVersion);
+  app.set_version_flag("--version", std::string("rilo ") + kVersion);
   app.require_subcommand(1);
   app.footer(kFooter);
-  cli::add_run_command(app, cli::command_line(argc, argv), exit_code);
+  cli::add_run_command(app, command_line(argc, argv), exit_code);
   cli::add_eval_command(app, exit_code);
-  cli::add_bench_command(app, cli::command_line(argc, argv), exit_code);
+  cli::add_bench_command(app, command_line(argc, argv), exit_code);
   cli::add_view_command(app, exit_code);
   cli::add_quality_command(app, exit_code);
   cli::add_report_command(app, exit_code);
@@ -54,14 +55,12 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     std::cout.flush();
-    return std::cout ? exit_code : fail(cli::kCannotWrite, "standard output: cannot be written");
+    return std::cout ? exit_code : fail(kCannotWrite, "standard output: cannot be written");
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    const auto chosen = app.get_subcommands();
-    const std::string help = chosen.empty() ? "rilo --help" : "rilo " + chosen.front()->get_name() + " --help";
-    return fail(cli::kUsage, std::string(error.what()) + ". See: " + help);
+    return fail(kUsage, cli::usage_error(app, error, argc, argv));
   } catch (...) {
-    const cli::Failure failure = cli::current_failure();
+    const Failure failure = current_failure();
     return fail(failure.code, failure.message);
   }
 }

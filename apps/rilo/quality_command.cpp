@@ -12,12 +12,12 @@
 
 #include "checks.hpp"
 #include "command.hpp"
-#include "progress.hpp"
+#include "console/progress.hpp"
+#include "console/text.hpp"
+#include "results/sweep_poses.hpp"
 #include "rilo/evaluation/map_quality.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "source_flags.hpp"
-#include "sweep_poses.hpp"
-#include "text.hpp"
 
 namespace rilo::cli {
 
@@ -34,7 +34,7 @@ struct QualityFlags {
   MapQualityConfig config;
   bool quiet = false;
   bool json = false;
-  SourceFlags source;
+  SourceRequest source;
 };
 
 struct QualityRun {
@@ -79,19 +79,19 @@ QualityRun measure(const QualityFlags& flags) {
 
 void check_found(const QualityFlags& flags, const QualityRun& run) {
   if (run.quality.windows == 0) {
-    throw CommandError(
-        kBadData, fmt::format("{} and {}: {} ({}); expected at least one window of {}. Give more sweeps or a smaller "
-                              "--window",
-                              flags.data, flags.poses, counted(run.quality.sweeps, "sweep"), run.protocol,
-                              flags.config.window_sweeps));
+    throw RunError(RunErrorKind::kBadData,
+                   fmt::format("{} and {}: {} ({}); expected at least one window of {}. Give more sweeps or a smaller "
+                               "--window",
+                               flags.data, flags.poses, counted(run.quality.sweeps, "sweep"), run.protocol,
+                               flags.config.window_sweeps));
   }
   if (run.quality.plane_rms_m.count == 0) {
-    throw CommandError(kBadData,
-                       fmt::format("{} and {}: no planar place among {} in {}; expected neighbours of at least {} "
-                                   "sweeps around a point. Check that the poses are of the LiDAR frame, or give a "
-                                   "larger --radius or --max-range",
-                                   flags.data, flags.poses, counted(run.quality.places, "place"),
-                                   counted(run.quality.windows, "window"), flags.config.min_sweeps));
+    throw RunError(RunErrorKind::kBadData,
+                   fmt::format("{} and {}: no planar place among {} in {}; expected neighbours of at least {} "
+                               "sweeps around a point. Check that the poses are of the LiDAR frame, or give a "
+                               "larger --radius or --max-range",
+                               flags.data, flags.poses, counted(run.quality.places, "place"),
+                               counted(run.quality.windows, "window"), flags.config.min_sweeps));
   }
 }
 

@@ -6,15 +6,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/report_inputs.hpp"
+#include "bench/report_runs.hpp"
+#include "bench/saved_bench.hpp"
 #include "checks.hpp"
 #include "command.hpp"
-#include "report_inputs.hpp"
-#include "report_runs.hpp"
+#include "console/text.hpp"
 #include "rilo/io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/report/html_report.hpp"
-#include "saved_bench.hpp"
-#include "text.hpp"
 
 namespace rilo::cli {
 
@@ -50,7 +50,7 @@ void write_page(const std::string& file, const ReportPage& page) {
   try {
     write_atomically(file, html.str());
   } catch (const IoError& error) {
-    throw CommandError(kCannotWrite, error.what());
+    throw RunError(RunErrorKind::kCannotWrite, error.what());
   }
 }
 
@@ -70,7 +70,7 @@ int report(const ReportFlags& flags) {
   std::vector<ReportTruth> truths;
   for (const std::string& word : flags.truths) truths.push_back(parse_report_truth(word));
   if (inputs.empty() && !truths.empty())
-    throw CommandError(kUsage, "--gt goes with runs and poses, not with rilo bench");
+    throw RunError(RunErrorKind::kUsage, "--gt goes with runs and poses, not with rilo bench");
   ReportRuns runs = report_runs(inputs, truths, flags.poses);
   page.runs = std::move(runs.runs);
   page.notices = std::move(runs.notices);

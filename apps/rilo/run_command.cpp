@@ -1,4 +1,5 @@
 // rilo run: odometry over recorded sweeps.
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -10,13 +11,20 @@
 
 #include "checks.hpp"
 #include "command.hpp"
-#include "folder_lock.hpp"
-#include "interrupt.hpp"
+#include "console/folder_lock.hpp"
+#include "console/interrupt.hpp"
+#include "console/text.hpp"
+#include "results/metrics_json.hpp"
+#include "results/partial_poses.hpp"
+#include "results/run_metrics.hpp"
+#include "results/run_observers.hpp"
+#include "results/run_outputs.hpp"
+#include "results/run_record.hpp"
+#include "results/run_summary.hpp"
 #include "rilo/config/config_file.hpp"
-#include "run_outputs.hpp"
-#include "run_record.hpp"
-#include "run_sweeps.hpp"
-#include "text.hpp"
+#include "rilo/session/map_observer.hpp"
+#include "run_flags.hpp"
+#include "source_flags.hpp"
 #include "view_flags.hpp"
 
 namespace rilo::cli {
@@ -37,8 +45,8 @@ Examples:
   rilo run sweeps/ --bin-fields x,y,z,intensity,ring --set preprocess.max_range_m=60 --map map.pcd
 
 Leaves in --out: poses_lidar.txt, poses_camera.txt (with a calibration), trajectory.tum, .csv (EuRoC) and .mcap
-(Foxglove, ROS 2), config.yaml (loadable), sweeps.csv (a line of statistics a sweep), metrics.json, report.html. Where
-ground truth lies in DATA, errors are in metrics.json and the report. While running, poses_lidar.partial.txt grows a line a sweep.
+(Foxglove, ROS 2), config.yaml (loadable), sweeps.csv (one line of statistics per sweep), metrics.json, report.html. Where
+ground truth lies in DATA, errors are in metrics.json and the report. While running, poses_lidar.partial.txt grows by one line per sweep.
 Ctrl-C or SIGTERM ends the run after the current sweep and writes what there is (exit code 130, 143); a second one ends
 it at once.)";
 
@@ -50,18 +58,18 @@ OdometryConfig configuration(const RunFlags& flags) {
 }
 
 int finish(const RunFlags& flags, const RunRecord& run, PartialPoses& partial) {
-  const nlohmann::json metrics = run_metrics(run);
+  const RunMetrics metrics = run_metrics(run);
   write_outputs(flags, run, metrics);
   partial.remove();
   if (flags.json) {
-    std::cout << json_text(metrics);
+    std::cout << json_text(to_json(metrics));
   } else if (!flags.quiet) {
     std::cout << run_summary(metrics);
     if (!flags.out.empty()) std::cout << "results         " << flags.out << '\n';
   }
   if (!run.error.empty()) {
-    throw CommandError(run.error_code,
-                       fmt::format("{} (kept: {} before it)", run.error, counted(run.results.size(), "sweep")));
+    throw RunError(kind_of(run.error_code),
+                   fmt::format("{} (kept: {} before it)", run.error, counted(run.results.size(), "sweep")));
   }
   return run.signal == 0 ? kSuccess : kSignalBase + run.signal;
 }
@@ -71,15 +79,40 @@ std::unique_ptr<LiveView> open_view(const RunFlags& flags, const ScanSource& sou
   ViewOptions options = flags.view_options;
   if (flags.view != "auto") {
     options.port = parse_port(flags.view);
-    if (!options.port) throw CommandError(kUsage, "--view=" + flags.view + ": expected a port, 0 … 65535");
+    if (!options.port) throw RunError(RunErrorKind::kUsage, "--view=" + flags.view + ": expected a port, 0 … 65535");
   }
   // A processor that the odometry leaves alone may be used: half of it, there is reading and the system as well.
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
   if (config.threads > 0 && config.threads < processors) options.share = kShareOfIdleProcessor;
   ViewInfo info = view_info(flags.data, config);
-  info.sweeps = sweeps_to_do(flags, source);
+  info.sweeps = sweeps_to_do(source, flags.start, flags.count);
   return std::make_unique<LiveView>(info, options,
                                     flags.no_truth ? std::nullopt : std::optional(TruthTrack(flags.data)));
+}
+
+void observe_and_run(const RunFlags& flags, Session& session, PartialPoses& partial, LiveView* view, RunRecord& run) {
+  SweepCheck check(flags);
+  ProgressLine progress(flags, session.source());
+  MapObserver map(flags.map_voxel_m);
+  MapPicture picture;
+  std::optional<ViewFeed> feed;
+  const bool picture_wanted = flags.map.empty() && !flags.out.empty() && !flags.no_report;
+  session.add(check);
+  session.add(partial);
+  if (!flags.map.empty()) session.add(map);  // for the file; the report draws it, too
+  if (picture_wanted) session.add(picture);
+  session.add(progress);
+  if (view != nullptr) session.add(feed.emplace(*view));
+  take(session.run(), run);
+  if (!flags.map.empty()) run.map = map.cloud(flags.map_normals);
+  if (picture_wanted) run.map.points = picture.points();
+}
+
+/// A map without a folder belongs to the other results.
+RunFlags completed(RunFlags flags) {
+  const std::filesystem::path map = flags.map;
+  if (!flags.out.empty() && !map.empty() && !map.has_parent_path()) flags.map = std::filesystem::path(flags.out) / map;
+  return flags;
 }
 
 int run_command(const RunFlags& flags, const std::string& command_line) {
@@ -87,17 +120,18 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   run.command_line = command_line;
   run.data = flags.data;
   run.config = configuration(flags);
-  auto source = open_scan_source(flags.data, flags.source.options);
+  Session session(source_of(flags), session_options(flags, run.config));
   prepare_outputs(flags);
+  if (flags.out.empty() && !flags.quiet) std::cerr << "rilo: note: results are not kept; --out FOLDER keeps them\n";
   const FolderLock lock(flags.out);
   const InterruptGuard guard;
-  const auto view = open_view(flags, *source, run.config);
+  const auto view = open_view(flags, session.source(), run.config);
   PartialPoses partial(flags.out);
-  run_sweeps(flags, std::move(source), partial, run, view.get());
+  observe_and_run(flags, session, partial, view.get(), run);
   if (view) view->viewer().finish();
   if (run.results.empty() && run.signal == 0) {
     partial.remove();
-    throw CommandError(run.error_code, run.error);
+    throw RunError(kind_of(run.error_code), run.error);
   }
   if (!flags.no_truth) {
     const std::size_t told = run.source.warnings.size();
@@ -120,16 +154,20 @@ void add_flags(CLI::App& command, RunFlags& flags) {
       ->check(path_given());
   command.add_option("--set", flags.settings, "key=value, repeatable; overrides the file")->allow_extra_args(false);
   command.add_option("--out", flags.out, "folder for the results (created)")->check(path_given());
-  command.add_option("--map", flags.map, "map of the whole run, .ply or .pcd, with a point in each voxel")
+  command
+      .add_option("--map", flags.map,
+                  "write the accumulated map (.ply or .pcd), one point per voxel; a bare name goes into --out")
       ->check(path_given());
   command.add_option("--map-voxel", flags.map_voxel_m, "edge of the map's voxels, m")
       ->check(number_within(0.001, 100))
       ->capture_default_str();
-  command.add_flag("--map-normals", flags.map_normals, "the map has normals, towards where the surface was seen from");
-  command.add_flag("--map-intensity", flags.map_intensity, "the map has intensities");
-  command.add_option("--start", flags.start, "leave out that many sweeps")
-      ->check(whole_number())
-      ->capture_default_str();
+  command.add_flag("--map-normals", flags.map_normals, "normals in the map, towards where the surface was seen from");
+  command.add_flag("--map-intensity", flags.map_intensity, "intensities in the map");
+  command.add_option("--odom-frame", flags.odom_frame, "odometry frame in trajectory.mcap and trajectory.bag")
+      ->default_str("odom");
+  command.add_option("--lidar-frame", flags.lidar_frame, "sensor frame in trajectory.mcap and trajectory.bag")
+      ->default_str("the data's frame_id, else lidar");
+  command.add_option("--start", flags.start, "skip that many sweeps")->check(whole_number())->capture_default_str();
   command.add_option("--count", flags.count, "run that many sweeps; 0: all")
       ->check(whole_number())
       ->capture_default_str();
@@ -138,7 +176,7 @@ void add_flags(CLI::App& command, RunFlags& flags) {
                   "threads; 0: as many as the machine has; the results do not depend on it. Default: as configured")
       ->check(whole_number(1024));
   command.add_flag("--one-pass", flags.one_pass,
-                   "do not start over when the sensor's elevation error has become certain: the poses of a live run");
+                   "single pass as in live operation: no restart with the estimated elevation offset");
   command.add_flag("--quiet", flags.quiet, "no progress, no warnings, no summary");
   command.add_flag("--json", flags.json, "print metrics.json instead of the summary");
   command.add_flag("--no-report", flags.no_report, "do not write report.html");
@@ -157,7 +195,7 @@ void add_run_command(CLI::App& app, const std::string& command_line, int& exit_c
   CLI::App* command = app.add_subcommand("run", "odometry over recorded sweeps");
   command->footer(kRunFooter);
   add_flags(*command, *flags);
-  command->callback([flags, command_line, &exit_code] { exit_code = run_command(*flags, command_line); });
+  command->callback([flags, command_line, &exit_code] { exit_code = run_command(completed(*flags), command_line); });
 }
 
 }  // namespace rilo::cli

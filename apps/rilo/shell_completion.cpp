@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "text.hpp"
+#include "console/text.hpp"
 
 namespace rilo::cli {
 

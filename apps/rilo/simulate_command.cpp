@@ -11,13 +11,13 @@
 
 #include "checks.hpp"
 #include "command.hpp"
-#include "folder_lock.hpp"
-#include "interrupt.hpp"
-#include "progress.hpp"
+#include "console/folder_lock.hpp"
+#include "console/interrupt.hpp"
+#include "console/progress.hpp"
+#include "console/text.hpp"
+#include "results/run_outputs.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 #include "rilo/simulation/drive_writer.hpp"
-#include "run_outputs.hpp"
-#include "text.hpp"
 
 namespace rilo::cli {
 
@@ -41,7 +41,7 @@ DriveSimulator make_drive(const DriveConfig& config) {
     const std::string member = "DriveConfig::max_range_m";
     std::string message = error.what();
     if (message.starts_with(member)) message.replace(0, member.size(), "--max-range");
-    throw CommandError(kUsage, message);
+    throw RunError(RunErrorKind::kUsage, message);
   }
 }
 
@@ -58,7 +58,7 @@ int simulate(const SimulateFlags& flags) {
       return InterruptGuard::signal() == 0;
     });
   } catch (const std::runtime_error& error) {
-    throw CommandError(kCannotWrite, error.what());
+    throw RunError(RunErrorKind::kCannotWrite, error.what());
   }
   progress.finish();
   if (!flags.quiet) {
@@ -80,14 +80,14 @@ void add_drive_flags(CLI::App& command, DriveConfig& drive) {
   const auto real = [&](const char* name, double& member, double least, double most, const char* help) {
     command.add_option(name, member, help)->check(number_within(least, most))->capture_default_str();
   };
-  whole("--sweeps", drive.sweeps, 20000, "number of sweeps, 10 a second; 0: a lap and a bit; at most 20000");
+  whole("--sweeps", drive.sweeps, 20000, "number of sweeps, 10 a second; 0: one lap and a little more; at most 20000");
   whole("--seed", drive.seed, std::numeric_limits<std::int64_t>::max(), "town, traffic and noise");
   real("--start", drive.start_s, 0, 2000, "s into the drive, 0 … 2000 (0: standing)");
   real("--speed", drive.speed_mps, 2, 15, "m/s on straight streets, 2 … 15");
   real("--noise", drive.noise_m, 0, 0.5, "m, 0 … 0.5: standard deviation of a range");
   real("--dropout", drive.dropout, 0, 0.9, "share of returns that are lost, 0 … 0.9");
   real("--max-range", drive.max_range_m, 0, 1000, "m; 0: the sensor's own");
-  real("--elevation-bias", drive.elevation_bias_deg, -2, 2, "degrees, -2 … 2: true less reported elevation");
+  real("--elevation-bias", drive.elevation_bias_deg, -2, 2, "degrees, -2 … 2: true minus reported elevation");
   whole("--moving-cars", drive.moving_cars, 12, "0 … 12");
   real("--parked-cars", drive.parked_cars, 0, 1, "share of the parking places that are taken, 0 … 1");
   real("--trees", drive.trees, 0, 1, "share of the places for trees that have one, 0 … 1");

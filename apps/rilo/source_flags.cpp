@@ -1,10 +1,8 @@
 #include "source_flags.hpp"
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "checks.hpp"
-#include "command.hpp"
 
 namespace rilo::cli {
 
@@ -17,7 +15,7 @@ CLI::Option* add_choice(CLI::App& command, const char* name, const Take& take, s
   return command.add_option_function<std::string>(name, take, help)->check(CLI::IsMember(std::move(words)));
 }
 
-void add_time_flags(CLI::App& command, SourceFlags& flags) {
+void add_time_flags(CLI::App& command, SourceRequest& flags) {
   SourceOptions& options = flags.options;
   add_choice(
       command, "--point-times",
@@ -27,8 +25,8 @@ void add_time_flags(CLI::App& command, SourceFlags& flags) {
       },
       {"auto", "data", "azimuth", "none"},
       "per-point times for motion compensation. auto: from the data when it has them; data: the same, and an error "
-      "when it has none; azimuth: from the angle of a clockwise spinning sensor whose sweep is stamped when it faces "
-      "forward (KITTI raw); none: the points are compensated already. Default: auto");
+      "when it has none; azimuth: from the angle of a clockwise spinning sensor whose sweep is stamped at the forward "
+      "direction (KITTI raw); none: the points are compensated already. Default: auto");
   add_choice(
       command, "--point-time-unit",
       [&options](const std::string& text) { options.point_time_unit = parse_point_time_unit(text).value(); },
@@ -41,29 +39,18 @@ void add_time_flags(CLI::App& command, SourceFlags& flags) {
   add_choice(
       command, "--spin",
       [&options](const std::string& text) { options.spin_direction = parse_spin_direction(text).value(); },
-      {"clockwise", "counter-clockwise"}, "sense of rotation seen from above, for --point-times azimuth");
+      {"clockwise", "counter-clockwise"}, "rotation direction seen from above, for --point-times azimuth");
 }
 
 }  // namespace
 
-nlohmann::json stamp_faults_json(const StampFaults& faults) {
-  return {{"gaps", faults.gaps},
-          {"missing_sweeps", faults.missing},
-          {"longest_gap_s", faults.longest_gap_s},
-          {"duplicates", faults.duplicates},
-          {"out_of_order", faults.out_of_order},
-          {"repeated_stamps", faults.repeated},
-          {"clock_jumps", faults.clock_jumps},
-          {"late", faults.late},
-          {"most_late_s", faults.most_late_s}};
-}
-
-void add_source_flags(CLI::App& command, SourceFlags& flags) {
+void add_source_flags(CLI::App& command, SourceRequest& flags) {
   SourceOptions& options = flags.options;
-  command.add_option("--topic", options.topic, "PointCloud2 topic of a recording that has several");
-  command.add_option("--sensor-file", options.sensor_file,
-                     "what a pcap needs: an Ouster's metadata (JSON; by default the one beside the recording) or an "
-                     "HDL-64E's calibration (YAML of velodyne_pointcloud)");
+  command.add_option("--topic", options.topic, "topic of a recording that has several with scans");
+  command.add_option(
+      "--sensor-file", options.sensor_file,
+      "what packets need: an Ouster's metadata (JSON; by default the one in or beside the recording) or an "
+      "HDL-64E's calibration (YAML of velodyne_pointcloud)");
   command
       .add_option("--bin-fields", options.bin_fields,
                   "columns of a .bin record, float32 each: x,y,z and intensity, time, ring; _ is ignored")
@@ -80,14 +67,7 @@ void add_source_flags(CLI::App& command, SourceFlags& flags) {
       ->capture_default_str();
   command.add_flag_callback(
       "--skip-bad-sweeps", [&options] { options.on_bad_sweep = OnBadSweep::kSkip; },
-      "leave out sweeps that cannot be read (counted in the results) instead of stopping");
-}
-
-void check_point_times(const SourceFlags& flags, const Sweep& sweep, const std::string& name) {
-  if (!flags.times_needed || !sweep.times_s.empty() || sweep.points.empty()) return;
-  throw CommandError(kBadData, name +
-                                   ": no per-point times; expected them because of --point-times data. Take auto, "
-                                   "azimuth or none, or name the field with --time-field");
+      "skip sweeps that cannot be read (counted in the results) instead of stopping");
 }
 
 }  // namespace rilo::cli

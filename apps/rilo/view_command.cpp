@@ -1,4 +1,4 @@
-// rilo view: a finished run once more, in the browser.
+// rilo view: replay a finished run in the browser.
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,16 +10,16 @@
 
 #include "checks.hpp"
 #include "command.hpp"
-#include "interrupt.hpp"
-#include "live_view.hpp"
+#include "console/interrupt.hpp"
+#include "console/text.hpp"
+#include "results/live_view.hpp"
+#include "results/saved_run.hpp"
+#include "results/view_recording.hpp"
 #include "rilo/config/config_file.hpp"
-#include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "source_flags.hpp"
-#include "text.hpp"
 #include "view_flags.hpp"
-#include "view_recording.hpp"
 
 namespace rilo::cli {
 
@@ -43,17 +43,17 @@ struct ViewFlags {
   std::string data;
   bool no_truth = false;
   ViewOptions options;
-  SourceFlags source;
+  SourceRequest source;
 };
 
 /// What the run was told about the data, as far as its figures say so.
-SourceOptions source_options(const ViewFlags& flags, const nlohmann::json& metrics) {
+SourceOptions source_options(const ViewFlags& flags, const RunMetrics& metrics) {
   SourceOptions options = flags.source.options;
-  if (options.topic.empty()) options.topic = metrics.value("topic", std::string());
+  if (options.topic.empty()) options.topic = metrics.topic;
   if (options.elevation_correction_deg == 0.0) {
-    options.elevation_correction_deg = metrics.value("elevation_correction_deg", 0.0);
+    options.elevation_correction_deg = metrics.elevation_correction_deg.value_or(0);
   }
-  const std::string times = metrics.value("point_times", std::string());
+  const std::string& times = metrics.point_times;
   if (options.point_times == PointTimes::kAuto && times.starts_with("azimuth")) {
     options.point_times = PointTimes::kAzimuth;
     if (times.find("counter-clockwise") != std::string::npos) {
@@ -63,7 +63,7 @@ SourceOptions source_options(const ViewFlags& flags, const nlohmann::json& metri
   return options;
 }
 
-std::unique_ptr<ScanSource> open_data(const ViewFlags& flags, const std::string& data, const nlohmann::json& metrics,
+std::unique_ptr<ScanSource> open_data(const ViewFlags& flags, const std::string& data, const RunMetrics& metrics,
                                       std::string& note) {
   try {
     return open_scan_source(data, source_options(flags, metrics));
@@ -76,7 +76,7 @@ std::unique_ptr<ScanSource> open_data(const ViewFlags& flags, const std::string&
 }
 
 /// Sends all sweeps, with the points of those that `source` still gives.
-void send_sweeps(LiveView& view, const RecordedRun& run, ScanSource* source) {
+void send_sweeps(LiveView& view, const RunRecord& run, ScanSource* source) {
   std::size_t done = 0;
   try {
     while (source != nullptr && done < run.results.size() && InterruptGuard::signal() == 0) {
@@ -97,22 +97,24 @@ void send_sweeps(LiveView& view, const RecordedRun& run, ScanSource* source) {
   for (; done < run.results.size(); ++done) view.show(run.indices[done], run.results[done], {});
 }
 
-void send_map(LiveView& view, const RecordedRun& run, const fs::path& folder) {
-  const auto file = recorded_map(folder);
-  if (!file) return;
-  const auto points = (file->extension() == ".ply" ? read_ply(*file) : read_pcd(*file)).points;
-  view.viewer().add_map(points, first_seen(points, run.results));
+void send_map(LiveView& view, const RunRecord& run) {
+  if (!run.map.points.empty()) view.viewer().add_map(run.map.points, first_seen(run.map.points, run.results));
 }
 
 int replay(ViewFlags flags) {
   const fs::path folder = flags.results;
-  const RecordedRun run = read_recorded_run(folder);
-  const std::string data = flags.data.empty() ? run.metrics.value("data", std::string()) : flags.data;
+  const SavedRun saved = read_saved_run(folder);
+  if (saved.killed) {
+    throw IoError({folder / "metrics.json", "", "no such file: the run was killed or is still going on",
+                   "a finished run", "Run rilo run again"});
+  }
+  const RunRecord& run = saved.record;
+  const std::string data = flags.data.empty() ? run.data.string() : flags.data;
   const fs::path config = folder / "config.yaml";
   ViewInfo info = view_info(data, fs::exists(config) ? load_config(config) : OdometryConfig{});
   info.live = false;
   info.sweeps = run.results.size();
-  const auto source = open_data(flags, data, run.metrics, info.note);
+  const auto source = open_data(flags, data, saved.metrics, info.note);
   info.points = source != nullptr;
   flags.options.share = 1.0;
   flags.options.sweep_bytes = kReplaySweepBytes;
@@ -120,7 +122,7 @@ int replay(ViewFlags flags) {
   const InterruptGuard guard;
   LiveView live(info, flags.options, flags.no_truth ? std::nullopt : std::optional(TruthTrack(data)));
   send_sweeps(live, run, source.get());
-  if (!source) send_map(live, run, folder);
+  if (!source) send_map(live, run);
   live.viewer().finish();
   wait_for_signal();
   return kSuccess;
@@ -130,7 +132,7 @@ int replay(ViewFlags flags) {
 
 void add_view_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<ViewFlags>();
-  CLI::App* command = app.add_subcommand("view", "a finished run once more, in the browser");
+  CLI::App* command = app.add_subcommand("view", "replay a finished run in the browser");
   command->footer(kViewFooter);
   command->add_option("RESULTS", flags->results, "folder of results")->required()->check(path_given());
   command->add_option("--data", flags->data, "where the sweeps are now")->check(path_given());

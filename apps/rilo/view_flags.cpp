@@ -2,27 +2,15 @@
 
 #include <charconv>
 #include <chrono>
-#include <iostream>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 
 #include "checks.hpp"
 #include "command.hpp"
-#include "interrupt.hpp"
-#include "rilo/io/io_error.hpp"
+#include "console/interrupt.hpp"
 
 namespace rilo::cli {
-
-std::unique_ptr<Viewer> open_viewer(const ViewInfo& info, const ViewOptions& options) {
-  try {
-    auto viewer = std::make_unique<Viewer>(info, options);
-    std::cerr << "rilo: viewer at " << viewer->url() << std::endl;
-    return viewer;
-  } catch (const IoError& error) {
-    throw CommandError(kUsage, error.what());
-  }
-}
 
 void wait_for_signal() {
   while (InterruptGuard::signal() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -1,8 +1,7 @@
-// Command-line options of the viewer, shared by run and view, and opening it.
+// Command-line options of the viewer, shared by run and view.
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,10 +9,6 @@
 #include "rilo/view/viewer.hpp"
 
 namespace rilo::cli {
-
-/// Opens the viewer and says on standard error where to look, even in a quiet run: nobody could find it otherwise.
-/// @throws CommandError(kUsage) when there is none in this build, or it cannot be bound.
-std::unique_ptr<Viewer> open_viewer(const ViewInfo& info, const ViewOptions& options);
 
 /// Waits until Ctrl-C or SIGTERM.
 void wait_for_signal();

@@ -10,8 +10,6 @@
 namespace rilo::ros1 {
 namespace {
 
-constexpr double kUnknownVariance = 1e6;
-
 template <typename Covariance>
 void put(const Matrix6d& matrix, Covariance& covariance) {
   for (Eigen::Index row = 0; row < 6; ++row) {
@@ -46,9 +44,7 @@ nav_msgs::Odometry odometry_message(const SweepResult& result, double step_s, co
   put(ros_pose_covariance(result.T_odom_lidar, result.covariance), message.pose.covariance);
   message.twist.twist.angular = to_vector(result.twist.head<3>());
   message.twist.twist.linear = to_vector(result.twist.tail<3>());
-  const Matrix6d of_twist = step_s > 0 ? Matrix6d(ros_twist_covariance(result.covariance) / (step_s * step_s))
-                                       : Matrix6d(kUnknownVariance * Matrix6d::Identity());
-  put(of_twist, message.twist.covariance);
+  put(ros_twist_covariance(result.covariance, step_s), message.twist.covariance);
   return message;
 }
 

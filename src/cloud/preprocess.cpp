@@ -54,6 +54,7 @@ void Preprocessor::update_scene_range() {
   const auto middle = ranges_.begin() + static_cast<std::ptrdiff_t>(ranges_.size() / 2);
   std::nth_element(ranges_.begin(), middle, ranges_.end());
   const double median = std::sqrt(static_cast<double>(*middle));
+  prepared_.median_range_m = median;
   double& scene = prepared_.scene_range_m;
   scene = scene > 0.0 ? scene + kSceneSmoothing * (median - scene) : median;
 }

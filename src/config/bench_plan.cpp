@@ -41,6 +41,8 @@ class PlanReader {
                [&](const Node& node) {
                  plan.skip_missing = word(node, "skip_missing", {"false", "true"}) == 1;
                }},
+              {"peers", [&](const Node& node) { plan.peers = peers(node); }},
+              {"peer_figures", [&](const Node& node) { plan.peer_figures = path(node, "peer_figures", root_); }},
               {"tables", [&](const Node& node) {
                  constexpr PaperTables kValues[] = {PaperTables::kNone, PaperTables::kKitti, PaperTables::kM2dgr};
                  plan.tables = kValues[word(node, "tables", {"none", "kitti", "m2dgr"})];
@@ -81,16 +83,17 @@ class PlanReader {
 
   // Results are looked up by these names.
   void check_peer_names(const Node& root, const BenchPlan& plan) const {
-    for (const BenchSequence& sequence : plan.sequences) {
-      for (const BenchPeer& peer : sequence.peers) {
+    const auto check = [&](const std::vector<BenchPeer>& peers, const std::string& of) {
+      for (const BenchPeer& peer : peers) {
         const bool taken = std::any_of(plan.configurations.begin(), plan.configurations.end(),
                                        [&](const BenchConfiguration& c) { return c.name == peer.name; });
         if (taken) {
-          refuse(root, detail::quoted(peer.name) + " is both a configuration and a peer of " + sequence.name,
-                 "names that differ");
+          refuse(root, detail::quoted(peer.name) + " is both a configuration and a peer" + of, "names that differ");
         }
       }
-    }
+    };
+    check(plan.peers, "");
+    for (const BenchSequence& sequence : plan.sequences) check(sequence.peers, " of " + sequence.name);
   }
 
   template <typename Item>
@@ -136,6 +139,7 @@ class PlanReader {
                  s.point_times = kValues[word(n, "point_times", {"auto", "azimuth", "none"})];
                }},
               {"elevation_correction", [&](const Node& n) { s.elevation_correction_deg = elevation(n); }},
+              {"group", [&](const Node& n) { s.group = text(n, "group"); }},
               {"peers", [&](const Node& n) { s.peers = peers(n); }}});
     if (s.name.empty()) s.name = name_of(s.path);
     return s;
@@ -263,6 +267,24 @@ BenchPlan parse_bench_plan(std::string_view yaml, const fs::path& file, const fs
     return PlanReader(file, root).read(detail::parse_yaml(yaml, file.string(), kPlanHint));
   } catch (const YAML::Exception& error) {  // of nodes that yaml-cpp cannot make sense of
     throw ConfigError({file, position_of(error.mark), "this is no YAML (" + error.msg + ")", "a plan", kPlanHint});
+  }
+}
+
+void give_peers(BenchPlan& plan) {
+  constexpr std::string_view kPlaceholder = "{sequence}";
+  for (BenchSequence& sequence : plan.sequences) {
+    for (BenchPeer peer : plan.peers) {
+      const bool own = std::any_of(sequence.peers.begin(), sequence.peers.end(),
+                                   [&](const BenchPeer& other) { return other.name == peer.name; });
+      if (own) continue;
+      std::string file = peer.poses.string();
+      for (auto at = file.find(kPlaceholder); at != std::string::npos; at = file.find(kPlaceholder, at)) {
+        file.replace(at, kPlaceholder.size(), sequence.name);
+        at += sequence.name.size();
+      }
+      peer.poses = file;
+      sequence.peers.push_back(peer);
+    }
   }
 }
 

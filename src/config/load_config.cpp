@@ -23,7 +23,7 @@ struct Place {
 };
 
 [[noreturn]] void refuse_key(const ConfigKeys& keys, const std::string& name, const Place& place) {
-  throw ConfigError({place.file, place.position, "unknown key " + quoted(name), "a known key",
+  throw ConfigError({place.file, place.position, "unknown key " + quoted(name), "",
                      "Did you mean " + keys.nearest(name) + "? `rilo config --dump` lists all keys"});
 }
 

@@ -61,8 +61,7 @@ std::string read_yaml_file(const std::filesystem::path& file, const std::string&
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     const bool exists = std::filesystem::exists(file, error);
-    throw ConfigError(
-        {file, "", exists ? "this is no regular file" : "there is nothing of this name", expected, remedy});
+    throw ConfigError({file, "", exists ? "not a regular file" : "no such file", expected, remedy});
   }
   std::ifstream stream(file, std::ios::binary);
   std::string text;
@@ -84,7 +83,7 @@ YAML::Node parse_yaml(std::string_view yaml, const std::string& name, const std:
     return YAML::Load(std::string(yaml));
   } catch (const YAML::Exception& error) {
     throw ConfigError(
-        {name, position_of(error.mark), "this is no YAML (" + error.msg + ")", "\"key: value\" lines", hint});
+        {name, position_of(error.mark), "not valid YAML (" + error.msg + ")", "\"key: value\" lines", hint});
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -42,6 +43,12 @@ std::size_t nearest(const Trajectory& trajectory, const std::vector<std::size_t>
   return before_gap <= gap_ns(stamp_ns, trajectory[order[place]].stamp_ns) ? place - 1 : place;
 }
 
+std::string seconds(std::int64_t ns) {
+  std::ostringstream text;
+  text << static_cast<double>(ns) * 1e-9;
+  return text.str();
+}
+
 void add_match(const Trajectory& truth, std::size_t i, const Trajectory& estimate, std::size_t j,
                MatchedPoses& matched) {
   matched.truth.push_back(truth[i].T_odom_lidar);
@@ -77,8 +84,8 @@ MatchedPoses match_by_stamp(const Trajectory& truth, const Trajectory& estimate,
   }
   if (matched.truth.size() < 2) {
     throw std::invalid_argument("only " + std::to_string(matched.truth.size()) + " of " +
-                                std::to_string(estimate.size()) + " estimated poses have a true pose within " +
-                                std::to_string(tolerance_ns) + " ns: are both stamped by the same clock?");
+                                std::to_string(estimate.size()) + " estimated poses have a ground-truth pose within " +
+                                seconds(tolerance_ns) + " s; check that both use the same clock");
   }
   return matched;
 }

@@ -16,6 +16,7 @@
 
 #include "cloud/fixed_chunks.hpp"
 #include "rilo/cloud/voxel_sampler.hpp"
+#include "rilo/evaluation/percentile.hpp"
 
 namespace rilo {
 
@@ -146,18 +147,6 @@ std::size_t workers_for(int threads) {
   return std::max(allowed, static_cast<std::size_t>(threads));
 }
 
-// Linear between the two nearest values.
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) {
-    return 0;
-  }
-  std::sort(values.begin(), values.end());
-  const double position = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (position - static_cast<double>(below)) * (values[above] - values[below]);
-}
-
 }  // namespace
 
 MapQualityMeter::MapQualityMeter(const MapQualityConfig& config)
@@ -271,7 +260,9 @@ MapQuality MapQualityMeter::result() const {
   quality.windows = windows_;
   quality.places = entropies_.size();
   quality.plane_rms_m = summarise(plane_rms_m_);
-  quality.plane_rms_p75_m = percentile(plane_rms_m_, 0.75);
+  std::vector<double> sorted = plane_rms_m_;
+  std::sort(sorted.begin(), sorted.end());
+  quality.plane_rms_p75_m = percentile(sorted, 0.75);
   if (!entropies_.empty()) {
     quality.mean_map_entropy = summarise(entropies_).mean;
   }

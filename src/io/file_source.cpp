@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "io/bin_fields.hpp"
 #include "io/cloud_columns.hpp"
 #include "io/file_bytes.hpp"
@@ -117,9 +119,9 @@ SourceInfo FileSource::info() const {
   info.point_times = timing_.description();
   if (timing_.sets_stamps()) info.stamps_assumed = false;
   if (info.stamps_assumed && info.kind != "file") {
-    info.warnings.insert(info.warnings.begin(),
-                         "no stamps in the data: " + std::to_string(std::lround(options_.assumed_rate_hz)) +
-                             " sweeps a second are assumed");
+    info.warnings.insert(
+        info.warnings.begin(),
+        fmt::format("no timestamps found; assuming {:g} Hz (change with --rate)", options_.assumed_rate_hz));
   }
   add_bad_sweep_count(info);
   return info;

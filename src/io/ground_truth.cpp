@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/kitti_oxts.hpp"
 #include "io/scan_listing.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/pose_reader.hpp"
@@ -52,6 +53,7 @@ std::optional<GroundTruth> find_truth(const fs::path& data, TruthInstant instant
     truth.warnings.emplace_back("no Tr in calib.txt: poses.txt is taken to be in the LiDAR frame");
     return truth;
   }
+  if (auto truth = detail::kitti_raw_truth(data)) return truth;
   const fs::path file = official_poses(data);
   std::error_code ignored;
   if (!fs::is_directory(data / "velodyne", ignored) || !file_exists(file)) return std::nullopt;

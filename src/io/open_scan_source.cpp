@@ -77,16 +77,16 @@ std::unique_ptr<ScanSource> open_folder(const fs::path& folder, const SourceOpti
     return std::make_unique<detail::FileSource>(detail::list_mulran(folder, options), options);
   }
   if (auto recording = recording_in_folder(folder)) {
-    return std::make_unique<detail::RecordingSource>(folder, std::move(recording), options);
+    return detail::open_recording(folder, std::move(recording), options);
   }
   return std::make_unique<detail::FileSource>(detail::list_plain_folder(folder, options), options);
 }
 
 std::unique_ptr<ScanSource> open_file(const fs::path& file, const SourceOptions& options) {
   const std::string extension = extension_of(file);
-  if (extension == ".pcap" || extension == ".pcapng") return std::make_unique<detail::PacketSource>(file, options);
+  if (extension == ".pcap" || extension == ".pcapng") return detail::open_capture(file, options);
   if (auto recording = recording_in_file(file)) {
-    return std::make_unique<detail::RecordingSource>(file, std::move(recording), options);
+    return detail::open_recording(file, std::move(recording), options);
   }
   return std::make_unique<detail::FileSource>(detail::list_single_file(file, options), options);
 }
@@ -110,8 +110,7 @@ std::unique_ptr<ScanSource> in_order_and_corrected(std::unique_ptr<ScanSource> s
 
 std::unique_ptr<ScanSource> open_live_source(std::shared_ptr<LiveQueue> queue, const SourceOptions& options) {
   check_options(options);
-  return in_order_and_corrected(
-      std::make_unique<detail::RecordingSource>("live", detail::open_live(std::move(queue)), options), options);
+  return in_order_and_corrected(detail::open_recording("live", detail::open_live(std::move(queue)), options), options);
 }
 
 std::unique_ptr<ScanSource> open_scan_source(const fs::path& path, const SourceOptions& options) {

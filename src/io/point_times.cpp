@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/stamp_difference.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
@@ -256,6 +257,12 @@ void PointTimeDecoder::decode(const RawTimes& raw, const std::filesystem::path& 
   fill(field, from_epoch, scale, sweep);
   convention_ = convention;
   description_ = describe(field, convention);
+}
+
+std::int64_t pose_stamp_ns(std::int64_t middle_ns, std::int64_t sweep_stamp_ns) {
+  constexpr std::int64_t kMicrosecond = 1000;
+  const std::int64_t apart = detail::stamp_difference(middle_ns, sweep_stamp_ns);
+  return apart >= -kMicrosecond && apart <= kMicrosecond ? sweep_stamp_ns : middle_ns;
 }
 
 std::vector<float> azimuth_times(const std::vector<Eigen::Vector3f>& points, double period_s, SpinDirection direction) {

@@ -8,35 +8,33 @@
 #include "rilo/io/atomic_file.hpp"
 
 namespace rilo {
-namespace {
 
-void append_kitti(std::string& text, const SE3& pose) {
+std::string kitti_line(const SE3& pose) {
+  std::string text;
   for (Eigen::Index row = 0; row < 3; ++row) {
     for (Eigen::Index column = 0; column < 4; ++column) {
       fmt::format_to(std::back_inserter(text), "{}{:.12e}", row + column == 0 ? "" : " ", pose(row, column));
     }
   }
-  text += '\n';
+  return text + '\n';
 }
-
-}  // namespace
 
 void write_kitti_poses(const std::filesystem::path& file, const Trajectory& trajectory) {
   std::string text;
-  for (const StampedPose& pose : trajectory) append_kitti(text, pose.T_odom_lidar);
+  for (const StampedPose& pose : trajectory) text += kitti_line(pose.T_odom_lidar);
   write_atomically(file, text);
 }
 
 void write_kitti_poses(const std::filesystem::path& file, const std::vector<SE3>& poses) {
   std::string text;
-  for (const SE3& pose : poses) append_kitti(text, pose);
+  for (const SE3& pose : poses) text += kitti_line(pose);
   write_atomically(file, text);
 }
 
 void write_kitti_poses_camera(const std::filesystem::path& file, const Trajectory& trajectory, const SE3& T_cam_lidar) {
   const SE3 T_lidar_cam = T_cam_lidar.inverse();
   std::string text;
-  for (const StampedPose& pose : trajectory) append_kitti(text, T_cam_lidar * pose.T_odom_lidar * T_lidar_cam);
+  for (const StampedPose& pose : trajectory) text += kitti_line(T_cam_lidar * pose.T_odom_lidar * T_lidar_cam);
   write_atomically(file, text);
 }
 

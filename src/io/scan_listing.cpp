@@ -10,6 +10,7 @@
 
 #include "io/file_bytes.hpp"
 #include "io/stamp_difference.hpp"
+#include "io/stamp_list.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/pose_reader.hpp"
@@ -50,12 +51,39 @@ void add_point_times(ScanListing& listing, const fs::path& folder) {
   }
 }
 
-// times.txt beside the sweeps or above them; the names of the files otherwise.
-std::vector<std::int64_t> find_stamps(const fs::path& stamp_file, const std::vector<fs::path>& files) {
-  if (!path_exists(stamp_file)) return stamps_from_names(files);
-  std::vector<std::int64_t> stamps = read_stamps(stamp_file);
-  check_stamp_count(stamp_file, stamps.size(), files.size());
-  return stamps;
+// A file that may be of something else: it is used when it fits, and named when not.
+std::vector<std::int64_t> stamps_that_fit(const fs::path& file, ScanListing& listing) {
+  std::string why;
+  try {
+    std::vector<std::int64_t> stamps = read_stamp_list(file);
+    if (stamps.size() == listing.files.size()) return stamps;
+    why = std::to_string(stamps.size()) + " stamps for " + std::to_string(listing.files.size()) + " sweeps";
+  } catch (const IoError& error) {
+    why = error.what();
+  }
+  listing.info.warnings.push_back("stamps not taken from " + file.string() + ": " + why);
+  return {};
+}
+
+// folder/times.txt must fit. Without it: the names of the sweeps, then timestamps.txt in the folder, then times.txt and
+// timestamps.txt above it, when the sweeps themselves lie in it.
+std::vector<std::int64_t> find_stamps(const fs::path& folder, bool look_above, ScanListing& listing) {
+  const fs::path stamp_file = folder / "times.txt";
+  if (path_exists(stamp_file)) {
+    std::vector<std::int64_t> stamps = read_stamps(stamp_file);
+    check_stamp_count(stamp_file, stamps.size(), listing.files.size());
+    return stamps;
+  }
+  if (auto stamps = stamps_from_names(listing.files); !stamps.empty()) return stamps;
+  std::vector<fs::path> candidates{folder / "timestamps.txt"};
+  std::error_code error;
+  const fs::path above = fs::canonical(folder, error).parent_path();
+  if (look_above && !error) candidates.insert(candidates.end(), {above / "times.txt", above / "timestamps.txt"});
+  for (const fs::path& candidate : candidates) {
+    if (!path_exists(candidate)) continue;
+    if (auto stamps = stamps_that_fit(candidate, listing); !stamps.empty()) return stamps;
+  }
+  return {};
 }
 
 void make_a_drive_of(ScanListing& listing, const fs::path& folder, const SourceOptions& options) {
@@ -89,12 +117,12 @@ std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps) {
 
 void note_bad_sweep(const IoError& error, SourceInfo& info) {
   constexpr std::size_t kMostMessages = 20;
-  if (info.bad_sweeps++ < kMostMessages) info.warnings.push_back(std::string("left out: ") + error.what());
+  if (info.bad_sweeps++ < kMostMessages) info.warnings.push_back(std::string("skipped: ") + error.what());
 }
 
 void add_bad_sweep_count(SourceInfo& info) {
   if (info.bad_sweeps == 0) return;
-  info.warnings.push_back(std::to_string(info.bad_sweeps) + " sweeps could not be read and were left out");
+  info.warnings.push_back(std::to_string(info.bad_sweeps) + " sweeps could not be read and were skipped");
 }
 
 void start_listing(ScanListing& listing, const char* kind, const fs::path& path, SweepFiles found) {
@@ -134,7 +162,7 @@ void check_stamp_count(const fs::path& stamp_file, std::size_t stamps, std::size
 ScanListing list_sequence(const fs::path& folder, const SourceOptions& options) {
   ScanListing listing;
   start_listing(listing, "kitti", folder, find_sweep_files(folder / "velodyne"));
-  set_stamps(listing, find_stamps(folder / "times.txt", listing.files), options);
+  set_stamps(listing, find_stamps(folder, false, listing), options);
   if (path_exists(folder / "times_pt") || path_exists(folder / "meta.json")) make_a_drive_of(listing, folder, options);
   const fs::path calibration = folder / "calib.txt";
   if (path_exists(calibration)) {
@@ -147,7 +175,7 @@ ScanListing list_sequence(const fs::path& folder, const SourceOptions& options) 
 ScanListing list_plain_folder(const fs::path& folder, const SourceOptions& options) {
   ScanListing listing;
   start_listing(listing, "folder", folder, find_sweep_files(folder));
-  set_stamps(listing, find_stamps(folder / "times.txt", listing.files), options);
+  set_stamps(listing, find_stamps(folder, true, listing), options);
   return listing;
 }
 

@@ -45,8 +45,8 @@ struct SweepFiles {
 /// Fills in what is known of a listing from its files.
 void start_listing(ScanListing& listing, const char* kind, const std::filesystem::path& path, SweepFiles found);
 
-/// @throws IoError when there is none, or more than one kind.
-SweepFiles find_sweep_files(const std::filesystem::path& folder);
+/// @throws IoError when there is none (with `look_below`, it names a subfolder that has some), or more than one kind.
+SweepFiles find_sweep_files(const std::filesystem::path& folder, bool look_below = true);
 
 /// bin, pcd or ply by the extension, whatever its case; empty for other files.
 std::string sweep_format(const std::filesystem::path& file);

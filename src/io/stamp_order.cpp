@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "cloud/fingerprint.hpp"
 #include "io/stamp_difference.hpp"
 
 namespace rilo::detail {
@@ -20,23 +20,6 @@ constexpr std::int64_t kClockJumpNs = 1'000'000'000;
 // So many late ones in a row: the clock was set back, by little.
 constexpr std::size_t kMostInARow = 5;
 constexpr std::size_t kMostWarnings = 20;
-
-// What tells a sweep from others: its size and some of its points. Those of another sweep never have the same bits.
-struct Fingerprint {
-  explicit Fingerprint(const std::vector<Eigen::Vector3f>& points) : size(points.size()) {
-    for (std::size_t i = 0; i < points.size(); i += kStride) {
-      sample.push_back(points[i]);
-    }
-  }
-  bool operator==(const Fingerprint& other) const {
-    return size == other.size &&
-           (size == 0 || std::memcmp(sample.data(), other.sample.data(), sample.size() * sizeof(sample[0])) == 0);
-  }
-
-  static constexpr std::size_t kStride = 32;
-  std::size_t size = 0;
-  std::vector<Eigen::Vector3f> sample;
-};
 
 class StampOrder final : public ScanSource {
  public:
@@ -121,8 +104,8 @@ class StampOrder final : public ScanSource {
   StampFaults faults_;
   std::vector<std::string> warnings_;
   std::optional<std::int64_t> newest_;
-  Fingerprint fingerprint_{{}};  // of the newest
-  std::size_t in_a_row_ = 0;     // left out because older
+  Fingerprint fingerprint_;   // of the newest
+  std::size_t in_a_row_ = 0;  // left out because older
   bool skipped_ = false;
 };
 

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "io/scan_listing.hpp"
+#include "io/stamp_list.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/pose_writer.hpp"
 
 namespace rilo::detail {
 namespace fs = std::filesystem;
@@ -16,7 +18,6 @@ namespace {
 constexpr std::array<const char*, 3> kFormats{"bin", "pcd", "ply"};
 
 bool is_digit(char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; }
-bool all_digits(std::string_view text) { return !text.empty() && std::all_of(text.begin(), text.end(), is_digit); }
 
 // The number that starts at `place`, without leading zeros; moves `place` behind it.
 std::string_view take_number(std::string_view text, std::size_t& place) {
@@ -55,9 +56,33 @@ FolderContent content_of(const fs::path& folder) {
   return content;
 }
 
-[[noreturn]] void refuse_without_sweeps(const fs::path& folder, FolderContent content) {
-  std::string found = "no .bin, .pcd or .ply in the folder, " + std::to_string(content.others) + " other files";
+// "data/ has 108 .bin" for the first subfolder (also two levels down) that holds sweeps.
+std::optional<std::string> subfolder_with_sweeps(const fs::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    for (const char* below : {"", "data"}) {
+      const std::string place = *below == 0 ? name : name + "/" + below;
+      std::error_code ignored;
+      if (!fs::is_directory(folder / place, ignored)) continue;
+      try {
+        const SweepFiles inside = find_sweep_files(folder / place, false);
+        return place + "/ has " + std::to_string(inside.files.size()) + " ." + inside.format;
+      } catch (const IoError&) {
+        // Nothing there either, or more than one kind.
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse_without_sweeps(const fs::path& folder, FolderContent content, bool look_below) {
   std::sort(content.folders.begin(), content.folders.end(), natural_less);
+  std::string found = "no sweeps here (.bin, .pcd, .ply)";
+  const auto below = look_below ? subfolder_with_sweeps(folder, content.folders) : std::nullopt;
+  if (below) {
+    throw IoError({folder, "", found + "; subfolder " + *below,
+                   "sweeps, or a KITTI sequence folder with velodyne/ in it", "Give that subfolder"});
+  }
+  found += ", " + std::to_string(content.others) + " other files";
   constexpr std::size_t kMostNames = 5;
   for (std::size_t i = 0; i < std::min(content.folders.size(), kMostNames); ++i) {
     found += (i == 0 ? " and the folders " : ", ") + content.folders[i];
@@ -65,23 +90,6 @@ FolderContent content_of(const fs::path& folder) {
   if (content.folders.size() > kMostNames) found += ", …";
   throw IoError({folder, "", found, "sweeps, or a KITTI sequence folder with velodyne/ in it",
                  "Give the folder that holds the sweeps themselves"});
-}
-
-// 19 digits: ns; 16: µs; 1234567890.123…: s.
-std::optional<std::int64_t> stamp_from_name(const std::string& name) {
-  constexpr std::size_t kNanosecondDigits = 19;
-  constexpr std::size_t kMicrosecondDigits = 16;
-  constexpr std::size_t kSecondDigits = 9;
-  if (all_digits(name)) {
-    if (name.size() == kNanosecondDigits) return parse_integer(name);
-    const auto microseconds = name.size() == kMicrosecondDigits ? parse_integer(name) : std::nullopt;
-    return microseconds ? std::optional(*microseconds * 1000) : std::nullopt;
-  }
-  const std::size_t point = name.find('.');
-  if (point == std::string::npos || point < kSecondDigits) return std::nullopt;
-  const std::string_view view(name);
-  if (!all_digits(view.substr(0, point)) || !all_digits(view.substr(point + 1))) return std::nullopt;
-  return parse_stamp(name);
 }
 
 }  // namespace
@@ -113,7 +121,7 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a < b;  // 1.bin and 01.bin: some order, always the same
 }
 
-SweepFiles find_sweep_files(const fs::path& folder) {
+SweepFiles find_sweep_files(const fs::path& folder, bool look_below) {
   FolderContent content = content_of(folder);
   std::string counts;
   std::size_t kinds = 0;
@@ -123,7 +131,7 @@ SweepFiles find_sweep_files(const fs::path& folder) {
     counts += (kinds++ == 0 ? "" : " and ") + std::to_string(content.sweeps[i].size()) + " ." + kFormats[i];
     found = {kFormats[i], std::move(content.sweeps[i])};
   }
-  if (kinds == 0) refuse_without_sweeps(folder, std::move(content));
+  if (kinds == 0) refuse_without_sweeps(folder, std::move(content), look_below);
   if (kinds > 1) {
     throw IoError(
         {folder, "", counts + " files", "sweeps of one kind", "Move the other files into a folder of their own"});
@@ -139,7 +147,7 @@ std::vector<std::int64_t> stamps_from_names(const std::vector<fs::path>& files) 
   for (const fs::path& file : files) {
     fs::path stem = file.stem();
     if (!sweep_format(stem).empty()) stem = stem.stem();  // nuScenes: NAME.pcd.bin
-    const auto stamp = stamp_from_name(stem.string());
+    const auto stamp = parse_long_stamp(stem.string());
     if (!stamp || (!stamps.empty() && *stamp <= stamps.back())) return {};
     stamps.push_back(*stamp);
   }

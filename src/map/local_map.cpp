@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "cloud/fixed_chunks.hpp"
 #include "rilo/cloud/elevation.hpp"
@@ -9,6 +11,9 @@
 namespace rilo {
 
 namespace {
+
+// A larger voxel sees more of the sweeps: filled by the first points of the first one it would know one or two beams.
+constexpr double kMorePointsALevel = 1.5;
 
 /// Whether `finer`, the next level, has points in the voxel of `coarse` that holds `p`. Its centroid alone does not
 /// tell: it may lie in the free space between them.
@@ -30,9 +35,12 @@ LocalMap::LocalMap(const LocalMapConfig& config) : config_(config) { clear(); }
 void LocalMap::clear() {
   grids_.clear();
   double voxel = config_.voxel_m;
-  for (int level = 0; level < config_.levels; ++level, voxel *= 2.0) {
-    grids_.emplace_back(voxel, PlaneCriteria{config_.min_points, config_.max_points, config_.max_planarity,
-                                             config_.min_extent * voxel});
+  double most = config_.max_points;
+  for (int level = 0; level < config_.levels; ++level, voxel *= 2.0, most *= kMorePointsALevel) {
+    const auto max_points = static_cast<std::int32_t>(std::min(most, 1e9));
+    grids_.emplace_back(voxel,
+                        PlaneCriteria{config_.min_points, max_points, config_.max_planarity, config_.min_extent * voxel,
+                                      config_.range_noise_m, config_.angle_noise_rad});
   }
 }
 
@@ -48,18 +56,17 @@ void LocalMap::set_scene_range(double range_m) {
 
 void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar, const RigidLever& pose) {
   const Eigen::Matrix3f R = T_odom_lidar.linear().cast<float>();
-  world_.resize(points.size());
-  levers_.resize(points.size());
+  inserted_.resize(points.size());
   for_fixed_chunks(points.size(), [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      world_[i] = T_odom_lidar * points[i].cast<double>();
-      levers_[i] = R * elevation_lever(points[i]) + pose.at(world_[i]).cast<float>();
+      const Eigen::Vector3d place = T_odom_lidar * points[i].cast<double>();
+      inserted_[i] = {place, R * points[i], R * elevation_lever(points[i]) + pose.at(place).cast<float>()};
     }
   });
   // The levels know nothing of one another.
   for_each_index(grids_.size() - finest_, [&](std::size_t i) {
     PlaneGrid& grid = grids_[finest_ + i];
-    grid.insert(world_, levers_);
+    grid.insert(inserted_);
     grid.refit();
   });
 }
@@ -78,20 +85,68 @@ void LocalMap::evict(const Eigen::Vector3d& centre) {
 
 bool LocalMap::find(const Eigen::Vector3d& p, MapPlane& plane) const {
   PlaneSpot spot;
-  if (!locate(p, spot)) {
+  locate({&p, 1}, Wanted::kPlanes, &spot);
+  if (spot.grid == nullptr) {
     return false;
   }
   plane = spot.grid->plane_at(spot);
   return true;
 }
 
-bool LocalMap::locate(const Eigen::Vector3d& p, PlaneSpot& spot) const {
-  for (std::size_t level = finest_; level < grids_.size(); ++level) {
-    if (grids_[level].locate(p, spot)) {
-      return true;
+// Level by level for all points, so that the memory for the next look-up of each is asked for while the others are
+// looked up.
+void LocalMap::locate(std::span<const Eigen::Vector3d> points, Wanted wanted, PlaneSpot* spots) const {
+  std::array<VoxelIndex, kBatch> index{};
+  std::array<VoxelIndex, kBatch> behind{};
+  std::array<std::size_t, kBatch> open{};  // points without a plane so far
+  std::array<std::size_t, kBatch> near{};  // those of them that lie near a face
+  std::size_t left = points.size();
+  for (std::size_t i = 0; i < left; ++i) {
+    open[i] = i;
+    spots[i] = PlaneSpot{};
+    index[i] = grids_[finest_].index_of(points[i]);
+    grids_[finest_].prefetch(index[i]);
+  }
+  for (std::size_t level = finest_; level < grids_.size() && left > 0; ++level) {
+    const PlaneGrid& grid = grids_[level];
+    const bool scatter = wanted == Wanted::kPlanesAndScatter && config_.scatter_voxel_m > 0.0 &&
+                         grid.voxel_m() >= config_.scatter_voxel_m;
+    const std::size_t looked_up = std::exchange(left, 0);
+    std::size_t beside = 0;
+    for (std::size_t k = 0; k < looked_up; ++k) {
+      const std::size_t i = open[k];
+      PlaneSpot spot;
+      const PlaneGrid::Kind kind = grid.look_up(index[i], spot);
+      if (kind == PlaneGrid::Kind::kPlane || (scatter && kind == PlaneGrid::Kind::kScatter && !spots[i].grid)) {
+        spots[i] = spot;
+      }
+      if (kind == PlaneGrid::Kind::kPlane) {
+        continue;
+      }
+      if (grid.behind_face(points[i], index[i], behind[i])) {
+        grid.prefetch(behind[i]);
+        near[beside++] = i;
+      } else {
+        open[left++] = i;
+      }
+    }
+    for (std::size_t k = 0; k < beside; ++k) {
+      PlaneSpot spot;
+      if (grid.look_up(behind[near[k]], spot) == PlaneGrid::Kind::kPlane) {
+        spots[near[k]] = spot;
+      } else {
+        open[left++] = near[k];
+      }
+    }
+    if (level + 1 == grids_.size()) {
+      break;
+    }
+    for (std::size_t k = 0; k < left; ++k) {
+      VoxelIndex& parent = index[open[k]];
+      parent = {parent.x >> 1, parent.y >> 1, parent.z >> 1};  // voxels double from level to level
+      grids_[level + 1].prefetch(parent);
     }
   }
-  return false;
 }
 
 std::size_t LocalMap::size() const {

@@ -1,5 +1,7 @@
 #include "rilo/odometry/initial_pose.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "rilo/cloud/deskew.hpp"
@@ -19,6 +21,15 @@ constexpr std::size_t kSearchStarts = 4;
 // A cloud compensated for a slightly wrong velocity is as good a target: at either end of a sweep of 0.1 s its points
 // are off by less than the least noise of the coarse stage.
 constexpr double kHalfSweepS = 0.05;
+// A sweep whose score over its residuals is below this share of the usual ratio may have been taken at another time
+// than its stamp says: so many periods earlier or later, looked for in steps of at most these.
+constexpr double kSuspicious = 0.8;
+constexpr double kPeriodsEarlier = 2.0;
+constexpr double kPeriodsLater = 12.0;
+constexpr double kPathStepM = 0.3;
+constexpr double kPathStepRad = 0.05;
+constexpr double kMostPathSteps = 100.0;
+constexpr std::size_t kPathPlaces = 3;
 constexpr double kSameTurnRad = 0.005;
 constexpr double kSameShiftM = 0.05;
 }  // namespace
@@ -33,7 +44,7 @@ InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& 
     take_coarse = choice.pred_align_distance_m <= config.tau_m;
     choice.reason = take_coarse ? InitialPoseReason::kWithinTau : InitialPoseReason::kBeyondTau;
   } else {
-    take_coarse = coarse.score > prediction.score + config.margin;
+    take_coarse = coarse.score > (1.0 + config.margin) * prediction.score;
     choice.reason = take_coarse ? InitialPoseReason::kBetterMapScore : InitialPoseReason::kWorseMapScore;
   }
   choice.source = take_coarse ? InitialPoseSource::kCoarse : InitialPoseSource::kPrediction;
@@ -42,10 +53,16 @@ InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& 
   return choice;
 }
 
+// One decision, step by step.
+// NOLINTNEXTLINE(readability-function-size)
 InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous,
-                                     double dt_s, const LocalMap& map, bool in_doubt,
-                                     const std::function<bool()>& time_left) {
-  const ScoredPose prediction{predicted.T_odom_lidar, score(source, predicted, map)};
+                                     const std::function<Vector6d(const SE3&)>& twist_at, const LocalMap& map,
+                                     bool single, bool in_doubt, const std::function<bool()>& time_left) {
+  ScoredPose prediction{predicted.T_odom_lidar, score(source, predicted, map)};
+  if (single) {
+    // All points: the candidates differ by few of them.
+    prediction.score = map_score(compensated_, map, predicted.T_odom_lidar, config_.score_sigma_m);
+  }
   InitialPose choice;
   choice.T_odom_lidar = prediction.T_odom_lidar;
   choice.prediction_score = prediction.score;
@@ -71,6 +88,19 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
   int iterations = 0;
   int starts = 0;
   bool cut = false;
+  const auto consider = [&](const SE3& T) {
+    double value = 0.0;
+    if (single) {
+      deskew(source, predicted.twist, compensated_);
+      value = map_score(compensated_, map, T, config_.score_sigma_m);
+    } else {
+      // Each candidate implies its own motion during the sweep, and is judged on the sweep compensated for it.
+      value = score(source, {T, twist_at(T)}, map);
+    }
+    if (value > best.score) {
+      best = {T, value};
+    }
+  };
   const auto try_from = [&](const SE3& start) {
     cut = cut || (starts > 0 && time_left && !time_left());
     if (cut) {
@@ -79,21 +109,19 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
     ++starts;
     const CoarseResult result = coarse_registration(*moving_, *target_, previous.inverse() * start, coarse_);
     iterations += result.iterations;
-    // Each candidate implies its own motion during the sweep, and is judged on the sweep compensated for it.
-    const MotionState state{previous * result.T_target_source, se3_log(result.T_target_source) / dt_s};
-    const double value = score(source, state, map);
-    if (value > best.score) {
-      best = {state.T_odom_lidar, value};
-    }
+    consider(previous * result.T_target_source);
   };
-  try_from(predicted.T_odom_lidar);
+  try_from(prediction.T_odom_lidar);
   if (doubt && !explains(best.score)) {
     try_from(previous);  // no motion
   }
   if (doubt && config_.restarts && !cut && !explains(best.score)) {
     deskew(source, predicted.twist, compensated_);
-    for (const SE3& start : restarts(previous, map)) {
+    for (const SE3& start : restarts(prediction.T_odom_lidar, map)) {
       try_from(start);
+      if (single) {
+        consider(start);
+      }
     }
   }
   choice = select_initial_pose(prediction, best, config_);
@@ -107,9 +135,45 @@ bool InitialPoseStage::explains(double score) const {
   return usual_score_ > 0.0 && score >= config_.alarm * usual_score_;
 }
 
-std::vector<SE3> InitialPoseStage::restarts(const SE3& previous, const LocalMap& map) const {
+bool InitialPoseStage::suspicious(double score, double residual_rms_m) const {
+  return usual_score_ > 0.0 && score * usual_rms_m_ < kSuspicious * usual_score_ * residual_rms_m;
+}
+
+std::vector<SE3> InitialPoseStage::places_on_path(const TimedCloud& source, const MotionState& predicted, double dt_s,
+                                                  const LocalMap& map) {
+  const Vector6d period = dt_s * predicted.twist;
+  const double steps_a_period =
+      std::ceil(std::max(period.tail<3>().norm() / kPathStepM, period.head<3>().norm() / kPathStepRad));
+  const auto steps =
+      static_cast<std::size_t>(std::min(steps_a_period * (kPeriodsEarlier + kPeriodsLater), kMostPathSteps));
+  const double step = steps > 0 ? (kPeriodsEarlier + kPeriodsLater) / static_cast<double>(steps) : 0.0;
+  deskew(source, predicted.twist, compensated_);
+  const auto points = evenly_picked(compensated_, kSearchPoints);
+  std::vector<ScoredPose> path;
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const SE3 T = predicted.T_odom_lidar * se3_exp((static_cast<double>(k) * step - kPeriodsEarlier) * period);
+    path.push_back({T, map_score(points, map, T, kSearchSigmaM)});
+  }
+  std::vector<ScoredPose> maxima;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const bool rises = k == 0 || path[k].score > path[k - 1].score;
+    const bool falls = k + 1 == path.size() || path[k].score >= path[k + 1].score;
+    if (rises && falls) {
+      maxima.push_back(path[k]);
+    }
+  }
+  std::stable_sort(maxima.begin(), maxima.end(),
+                   [](const ScoredPose& a, const ScoredPose& b) { return a.score > b.score; });
+  std::vector<SE3> places;
+  for (std::size_t i = 0; i < std::min(maxima.size(), kPathPlaces); ++i) {
+    places.push_back(maxima[i].T_odom_lidar);
+  }
+  return places;
+}
+
+std::vector<SE3> InitialPoseStage::restarts(const SE3& centre, const LocalMap& map) const {
   const PoseGrid grid{config_.search_shift_m, kSearchShiftStepM, config_.search_yaw_rad, kSearchYawStepRad};
-  return search_poses(evenly_picked(compensated_, kSearchPoints), map, previous, grid, kSearchSigmaM, kSearchStarts);
+  return search_poses(compensated_, map, centre, grid, kSearchSigmaM, kSearchStarts);
 }
 
 double InitialPoseStage::score(const TimedCloud& source, const MotionState& state, const LocalMap& map) {
@@ -118,9 +182,11 @@ double InitialPoseStage::score(const TimedCloud& source, const MotionState& stat
   return map_score(points, map, state.T_odom_lidar, config_.score_sigma_m);
 }
 
-void InitialPoseStage::learn(double score) {
+void InitialPoseStage::learn(double score, double residual_rms_m) {
   const double rate = explains(score) ? kLearningRate : kDoubtfulLearningRate;
-  usual_score_ = usual_score_ > 0.0 ? usual_score_ + rate * (score - usual_score_) : score;
+  const bool first = !(usual_score_ > 0.0);
+  usual_score_ = first ? score : usual_score_ + rate * (score - usual_score_);
+  usual_rms_m_ = first ? residual_rms_m : usual_rms_m_ + rate * (residual_rms_m - usual_rms_m_);
 }
 
 void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twist) {
@@ -134,12 +200,16 @@ void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twi
   moving_.reset();
 }
 
-void InitialPoseStage::reset() {
-  usual_score_ = 0.0;
-  forget_target();
+void InitialPoseStage::begin(const TimedCloud& source, const MotionState& state, const LocalMap& map) {
+  reset();
+  own_score_ = score(source, state, map);
+  keep_target(source, state.twist);
 }
 
-void InitialPoseStage::forget_target() {
+void InitialPoseStage::reset() {
+  usual_score_ = 0.0;
+  usual_rms_m_ = 0.0;
+  own_score_ = 0.0;
   target_points_.clear();
   target_.reset();
   moving_.reset();

@@ -1,83 +1,81 @@
 #include "rilo/odometry/odometry_config.hpp"
 
-#include <cmath>
-#include <initializer_list>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+
+#include "rilo/odometry/odometry_keys.hpp"
 
 namespace rilo {
 
 namespace {
 
-struct Bound {
-  const char* name;
-  double value;
-  double least;
-  double most;
+template <typename Value, typename Expected>
+[[noreturn]] void refuse(const std::string& name, const Value& value, const Expected& expected) {
+  std::ostringstream text;
+  text << "configuration: " << name << " is " << value << ", expected " << expected;
+  throw std::invalid_argument(text.str());
+}
+
+template <typename Number>
+std::string range(const char* kind, Number least, Number most) {
+  std::ostringstream text;
+  text << kind << " from " << least << " to " << most;
+  return text.str();
+}
+
+// Every key by itself.
+class RangeCheck : public KeyVisitor {
+ public:
+  void section(std::string_view name, std::string_view /*meaning*/) override { section_ = std::string(name) + "."; }
+
+  void real(std::string_view name, double& member, double least, double most, std::string_view /*unit*/,
+            std::string_view /*meaning*/) override {
+    // Comparisons with NaN are false.
+    if (!(member >= least && member <= most)) refuse(full(name), member, range("a number", least, most));
+  }
+
+  void integer(std::string_view name, int& member, int least, int most, std::string_view /*unit*/,
+               std::string_view /*meaning*/) override {
+    if (member < least || member > most) refuse(full(name), member, range("a whole number", least, most));
+  }
+
+  void boolean(std::string_view /*name*/, bool& /*member*/, std::string_view /*meaning*/) override {}
+
+  void choice_of(std::string_view name, KeyChoice choice, std::string_view /*meaning*/) override {
+    if (choice.get() < choice.words.size()) return;
+    std::string words;
+    for (const std::string& word : choice.words) words += (words.empty() ? "" : " or ") + word;
+    refuse(full(name), "none of its values", words);
+  }
+
+ private:
+  std::string full(std::string_view name) const { return section_ + std::string(name); }
+
+  std::string section_;
 };
 
-void check(std::initializer_list<Bound> bounds) {
-  for (const Bound& b : bounds) {
-    if (!(b.value >= b.least && b.value <= b.most)) {
-      throw std::invalid_argument(std::string("configuration: ") + b.name + " is " + std::to_string(b.value) +
-                                  ", expected a number from " + std::to_string(b.least) + " to " +
-                                  std::to_string(b.most));
-    }
-  }
+template <typename Number>
+void check_order(const char* name, Number value, const char* least_name, Number least) {
+  if (value < least) refuse(name, value, "at least that of " + std::string(least_name));
 }
 
 }  // namespace
 
-void validate(const OdometryConfig& c) {
-  // What would divide by zero, allocate without bound or never end. The configuration file's own ranges are narrower.
-  check({
-      {"threads", static_cast<double>(c.threads), 0, 1024},
-      {"preprocess.min_range_m", c.preprocess.min_range_m, 0, 1e4},
-      {"preprocess.max_range_m", c.preprocess.max_range_m, c.preprocess.min_range_m, 1e4},
-      {"preprocess.source_points", static_cast<double>(c.preprocess.source_points), 100, 1e7},
-      {"preprocess.min_voxel_m", c.preprocess.min_voxel_m, 1e-2, 1e2},
-      {"preprocess.max_voxel_m", c.preprocess.max_voxel_m, c.preprocess.min_voxel_m, 1e2},
-      {"preprocess.map_voxel_ratio", c.preprocess.map_voxel_ratio, 0.1, 1},
-      {"coarse.voxel_m", c.coarse.voxel_m, 1e-2, 1e2},
-      {"coarse.max_points", static_cast<double>(c.coarse.max_points), 10, 1e7},
-      {"coarse.density_radius_m", c.coarse.density_radius_m, 1e-2, 1e2},
-      {"coarse.density_percentile", c.coarse.density_percentile, 0, 99},
-      {"coarse.neighbours", static_cast<double>(c.coarse.neighbours), 4, 100},
-      {"coarse.sigma", c.coarse.sigma, 1e-3, 1e3},
-      {"coarse.max_iterations", static_cast<double>(c.coarse.max_iterations), 1, 1000},
-      {"coarse.noise_first_m", c.coarse.noise_first_m, 1e-3, 1e2},
-      {"coarse.noise_last_m", c.coarse.noise_last_m, 1e-3, 1e2},
-      {"coarse.max_correspondence_m", c.coarse.max_correspondence_m, 1e-2, 1e2},
-      {"prior.acceleration_m_s2", c.prior.acceleration_m_s2, 1e-3, 1e4},
-      {"prior.angular_acceleration_rad_s2", c.prior.angular_acceleration_rad_s2, 1e-3, 1e4},
-      {"prior.unseen_share", c.prior.unseen_share, 1e-4, 1},
-      {"initial_pose.score_sigma_m", c.initial_pose.score_sigma_m, 1e-3, 1e2},
-      {"initial_pose.score_points", static_cast<double>(c.initial_pose.score_points), 10, 1e6},
-      {"initial_pose.search_shift_m", c.initial_pose.search_shift_m, 0, 50},
-      {"initial_pose.search_yaw_rad", c.initial_pose.search_yaw_rad, 0, 3.2},
-      {"threshold.initial_m", c.threshold.initial_m, 1e-3, 1e2},
-      {"threshold.floor_m", c.threshold.floor_m, 1e-3, 1e2},
-      {"threshold.ceiling_m", c.threshold.ceiling_m, c.threshold.floor_m, 1e2},
-      {"threshold.decay", c.threshold.decay, 1e-3, 1e6},
-      {"threshold.forgetting", c.threshold.forgetting, 0, 1},
-      {"icp.max_iterations", static_cast<double>(c.icp.max_iterations), 1, 1000},
-      {"icp.coarse_stride", static_cast<double>(c.icp.coarse_stride), 1, 100},
-      {"icp.rematch_m", c.icp.rematch_m, 0, 10},
-      {"icp.noise_m", c.icp.noise_m, 1e-4, 10},
-      {"icp.independent_share", c.icp.independent_share, 1e-6, 1},
-      {"elevation.initial_deg", c.elevation.initial_deg, -10, 10},
-      {"elevation.significance", c.elevation.significance, 0, 1e6},
-      {"elevation.least_deg", c.elevation.least_deg, 0, 90},
-      {"elevation.step_deg", c.elevation.step_deg, 0, 90},
-      {"beams.gain", c.beams.gain, 0, 1},
-      {"budget.sweep_ms", c.budget.sweep_ms, 0, 1e6},
-      {"map.voxel_m", c.map.voxel_m, 1e-2, 1e2},
-      {"map.levels", static_cast<double>(c.map.levels), 1, 10},
-      {"map.scene_voxels", c.map.scene_voxels, 1, 1e4},
-      {"map.radius_m", c.map.radius_m, 1, 1e5},
-      {"map.min_points", static_cast<double>(c.map.min_points), 3, 1e6},
-      {"map.max_points", static_cast<double>(c.map.max_points), static_cast<double>(c.map.min_points), 1e6},
-  });
+void validate(const OdometryConfig& config) {
+  OdometryConfig c = config;
+  RangeCheck check;
+  visit_keys(c, check);
+  check_order("preprocess.max_range_m", c.preprocess.max_range_m, "preprocess.min_range_m", c.preprocess.min_range_m);
+  check_order("preprocess.max_voxel_m", c.preprocess.max_voxel_m, "preprocess.min_voxel_m", c.preprocess.min_voxel_m);
+  check_order("threshold.ceiling_m", c.threshold.ceiling_m, "threshold.floor_m", c.threshold.floor_m);
+  check_order("map.max_points", c.map.max_points, "map.min_points", c.map.min_points);
+}
+
+OdometryConfig validated(const OdometryConfig& config) {
+  validate(config);
+  return config;
 }
 
 }  // namespace rilo

@@ -21,7 +21,7 @@ void record(const InitialPose& init, SweepStats& stats) {
 
 void record(const IcpResult& icp, SweepStats& stats) {
   stats.iterations = icp.iterations;
-  stats.converged = icp.converged;
+  stats.converged = icp.converged();
   stats.inliers = icp.inliers;
   stats.inlier_ratio = static_cast<double>(icp.inliers) / static_cast<double>(stats.points_source);
   stats.residual_rms_m = icp.residual_rms_m;

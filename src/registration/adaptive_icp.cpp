@@ -14,8 +14,13 @@ constexpr std::size_t kLeastCorrespondences = 10;
 constexpr std::size_t kLeastForStride = 4000;
 // Information on a direction counts beyond so many times what errors of the normals alone would show there.
 constexpr double kNoiseMargin = 1.5;
+// The strided cloud is weighted with so many sigma_th: a sweep off by more than the weights bear stays where it is.
+constexpr double kWideStart = 3.0;
 // The strided cloud need not converge as far as the whole one: what is left is below the noise of its sample.
 constexpr double kCoarseTolerance = 10.0;
+// From this iteration on, which 95 % of the sweeps of a drive do without, points keep what they met: a few that change
+// planes at every step would keep the sweep swinging.
+constexpr int kFreezeAfter = 16;
 
 Vector12d prior_error(const MotionPrior& prior, const MotionState& state) {
   Vector12d e;
@@ -74,33 +79,72 @@ bool step(const NormalEquations& sums, const Matrix6d& normal_noise, const Motio
   return delta.allFinite();
 }
 
+/// The weights make each update a share of what is left only: it shrinks by about a half from one to the next. Anderson
+/// acceleration of depth one (Walker and Ni 2011) takes the secant through the last two.
+class Acceleration {
+ public:
+  void restart() { known_ = false; }
+
+  /// What to move by, from the update of the equations and their information, in which updates are compared.
+  Vector12d moved(const Vector12d& update, const Matrix12d& information) {
+    Vector12d move = update;
+    if (known_) {
+      const Vector12d change = update - update_;
+      const Vector12d weighted = information * change;
+      const double length2 = change.dot(weighted);
+      const double gamma = length2 > 0.0 ? update.dot(weighted) / length2 : 0.0;
+      if (gamma < 0.0 && gamma > -kMost) {
+        move -= gamma * (move_ + change);
+      }
+    }
+    known_ = true;
+    update_ = update;
+    move_ = move;
+    return move;
+  }
+
+ private:
+  static constexpr double kMost = 4.0;
+  bool known_ = false;
+  Vector12d update_ = Vector12d::Zero();
+  Vector12d move_ = Vector12d::Zero();
+};
+
 }  // namespace
 
 IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial,
                        const MotionPrior& prior, double sigma_th_m, const AdaptiveIcpConfig& config) {
   IcpResult result;
   result.state = initial;
-  PlaneMatches matches(config.rematch_m);
+  PlaneMatches matches;
+  Acceleration acceleration;
   std::size_t stride = source.size() >= kLeastForStride ? static_cast<std::size_t>(config.coarse_stride) : 1;
   while (result.iterations < config.max_iterations) {
     ++result.iterations;
-    const NormalEquations sums = matches.linearise(source, map, result.state, sigma_th_m, config, stride);
+    const double sigma_m = stride > 1 ? kWideStart * sigma_th_m : sigma_th_m;
+    const NormalEquations sums = matches.linearise(source, map, result.state, sigma_m, config, stride);
     Vector12d delta;
     if (sums.count < kLeastCorrespondences ||
         !step(sums, matches.normal_noise(), prior, config, static_cast<double>(stride), result, delta)) {
       result.inliers = sums.count;
+      result.termination = IcpTermination::kSingular;
       break;
     }
-    result.state = perturbed(result.state, delta);
+    result.state = perturbed(result.state, acceleration.moved(delta, result.posterior_information));
     const double tolerance = stride > 1 ? kCoarseTolerance : 1.0;
     const bool small = delta.head<3>().norm() < tolerance * config.rotation_epsilon_rad &&
                        delta.segment<3>(3).norm() < tolerance * config.translation_epsilon_m;
     if (small && stride == 1) {
-      result.converged = true;
+      result.termination = IcpTermination::kConverged;
       break;
+    }
+    if (result.iterations == kFreezeAfter) {
+      matches.freeze();
+      result.frozen = true;
     }
     if (small || result.iterations == config.max_iterations / 2) {
       stride = 1;
+      acceleration.restart();
     }
   }
   return result;

@@ -21,6 +21,9 @@ constexpr std::size_t kLeastBlocks = 3;
 constexpr double kResponse = 0.65;
 // What the residuals of a surface share whatever their number: errors of single beams, rounded edges.
 constexpr double kSystematicM = 0.002;
+// Share of `significance` below which a correction is taken back: with 3, within one standard deviation of nothing
+// correcting is expected to leave a larger error than not correcting.
+constexpr double kTakeBack = 1.0 / 3.0;
 
 /// Sums of the mixed terms of δ with pose and velocity, and of δ alone.
 struct Sums {
@@ -136,18 +139,24 @@ double ElevationOffsetEstimator::sigma_rad() const {
   return std::sqrt(std::max(from_scatter, 1.0 / information_) + systematic);
 }
 
-double ElevationOffsetEstimator::advance() {
+void ElevationOffsetEstimator::decide() {
   const double sigma = sigma_rad();
   const double estimate = offset_rad();
-  const double error = std::abs(estimate - config_.initial_deg * kRadPerDeg);
-  if (error > config_.significance * sigma && error > config_.least_deg * kRadPerDeg) {
-    certain_ = true;
-  }
-  if (!config_.enabled || !certain_) {
+  const auto certain = [&](double error) {
+    return std::abs(error) > std::max(config_.significance * sigma, config_.least_deg * kRadPerDeg);
+  };
+  following_ = following_ || certain(estimate) || certain(estimate - config_.initial_deg * kRadPerDeg);
+}
+
+double ElevationOffsetEstimator::advance() {
+  decide();
+  if (!config_.enabled || !following_) {
     return 0.0;
   }
+  const double estimate = offset_rad();
+  const double target = std::abs(estimate) > kTakeBack * config_.significance * sigma_rad() ? estimate : 0.0;
   const double step = config_.step_deg * kRadPerDeg;
-  const double change = std::clamp(estimate - applied_rad_, -step, step);
+  const double change = std::clamp(target - applied_rad_, -step, step);
   applied_rad_ += change;
   return change;
 }

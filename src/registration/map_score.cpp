@@ -16,9 +16,12 @@ struct Candidate {
   double score = 0;
 };
 
-constexpr std::size_t kFirstShare = 4;       // a quarter of the points rules out ...
-constexpr std::size_t kSurvivors = 8;        // ... all but an eighth of the nodes, ...
-constexpr std::size_t kLeastSurvivors = 50;  // ... but leaves so many
+// A few points rule out most of the nodes; the rest is looked at again with more points, and so on.
+constexpr std::size_t kFirstPoints = 75;
+constexpr std::size_t kMostPoints = 5000;
+constexpr std::size_t kMorePoints = 4;       // times as many from round to round ...
+constexpr std::size_t kSurvivors = 8;        // ... for an eighth of the nodes, ...
+constexpr std::size_t kLeastSurvivors = 50;  // ... but no fewer
 
 std::vector<Candidate> grid_nodes(const PoseGrid& grid) {
   const int shifts = static_cast<int>(std::lround(grid.max_shift_m / grid.shift_step_m));
@@ -99,10 +102,14 @@ void score_nodes(std::vector<Candidate>& nodes, const std::vector<Eigen::Vector3
 std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre,
                               const PoseGrid& grid, double sigma_m, std::size_t keep) {
   std::vector<Candidate> nodes = grid_nodes(grid);
-  // A few points rule most of the nodes out.
-  score_nodes(nodes, evenly_picked(points, points.size() / kFirstShare + 1), map, centre, grid, sigma_m);
-  nodes.resize(std::max(nodes.size() / kSurvivors, std::min(nodes.size(), kLeastSurvivors)));
-  score_nodes(nodes, points, map, centre, grid, sigma_m);
+  const std::size_t most = std::min(points.size(), kMostPoints);
+  for (std::size_t count = kFirstPoints;; count *= kMorePoints) {
+    score_nodes(nodes, evenly_picked(points, std::min(count, most)), map, centre, grid, sigma_m);
+    if (count >= most) {
+      break;
+    }
+    nodes.resize(std::max(nodes.size() / kSurvivors, std::min(nodes.size(), kLeastSurvivors)));
+  }
   std::vector<Candidate> chosen;
   for (const Candidate& node : nodes) {
     if (chosen.size() == keep) {

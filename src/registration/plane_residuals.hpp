@@ -22,7 +22,7 @@ struct PlaneResidual {
   PlaneSpot spot;          ///< of the plane in its grid
   MapPlane plane;
   double distance_m = 0;  ///< of the point from the plane, along its normal
-  double weight = 0;      ///< β_k, as in the registration
+  double weight = 0;      ///< β_k and the plane's, as in the registration
 };
 
 /// How a sweep was registered, and which of its points are looked at.
@@ -50,7 +50,8 @@ void for_each_residual(const RegisteredSweep& sweep, const LocalMap& map, const 
       const MapPlane plane = spot.grid->plane_at(spot);
       const double e = plane.normal.dot(world - plane.point);
       if (std::abs(e) <= sweep.gate_m) {
-        use(chunk, PlaneResidual{k * sweep.stride, point_at(k), world, spot, plane, e, sigma2 / (sigma2 + e * e)});
+        const double weight = static_cast<double>(plane.weight) * sigma2 / (sigma2 + e * e);
+        use(chunk, PlaneResidual{k * sweep.stride, point_at(k), world, spot, plane, e, weight});
       }
     });
   });

@@ -1,5 +1,5 @@
 // Residuals of points against the planes of the map, and their normal equations.
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cloud/fixed_chunks.hpp"
@@ -12,115 +12,142 @@ namespace {
 
 constexpr std::size_t kNoiseStride = 8;  // a sample of the points tells the noise of the normals
 
-/// Covariance of a Jacobian [(p × n)ᵀ nᵀ] whose normal has the given one.
-Matrix6d jacobian_noise(const Eigen::Vector3d& p, const Eigen::Matrix3d& normal_covariance) {
-  Eigen::Matrix<double, 6, 3> by_normal;
-  by_normal << hat(p), Eigen::Matrix3d::Identity();
-  return by_normal * normal_covariance * by_normal.transpose();
-}
+/// Weights residuals and adds them to normal equations, all at one state.
+class Equations {
+ public:
+  Equations(const TimedCloud& source, const SE3& T_odom_lidar, double sigma_th_m, const AdaptiveIcpConfig& config)
+      : source_(source),
+        origin_(T_odom_lidar.translation()),
+        refine_(source.timed() && config.refine_motion),
+        adaptive_(config.adaptive),
+        sigma2_(sigma_th_m * sigma_th_m),
+        gate2_(std::pow(config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m, 2)),
+        scatter_noise2_(config.scatter_noise_m * config.scatter_noise_m) {}
+
+  /// Distance of the point `i` of the source from a plane; returns its weight β_k.
+  double add(std::size_t i, const Eigen::Vector3d& world, const Eigen::Vector3d& normal, double distance_m,
+             double weight) {
+    const double beta = weight * weight_of(distance_m, 1.0);
+    if (beta > 0.0) {
+      Vector6d J;  // [(p × n)ᵀ nᵀ]
+      J << (world - origin_).cross(normal), normal;
+      if (refine_) {
+        sums.add(J, distance_m, beta, static_cast<double>(source_.offsets_s[i]));
+      } else {
+        sums.add(J, distance_m, beta);
+      }
+    }
+    return beta;
+  }
+
+  /// Points that are no plane: their Gaussian, with the noise of the point.
+  void add(std::size_t i, const Eigen::Vector3d& world, const MapScatter& scatter) {
+    const Eigen::Vector3d e = scatter.axes.transpose() * (world - scatter.mean);
+    Eigen::Vector3d beta;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = scatter.bounded[axis] * scatter_noise2_ / (scatter_noise2_ + scatter.variances[axis]);
+      beta[axis] = scatter.weight * weight_of(e[axis], share);
+    }
+    const Eigen::Matrix3d weighted = scatter.axes * beta.asDiagonal();
+    sums.add(world - origin_, weighted * scatter.axes.transpose(), weighted * e, beta.sum(), beta.dot(e.cwiseAbs2()),
+             static_cast<std::size_t>((beta.array() > 0.0).count()),
+             refine_ ? static_cast<double>(source_.offsets_s[i]) : 0.0);
+  }
+
+  NormalEquations sums;
+
+ private:
+  /// `share`: of the squared distance that counts, because the surface scatters along that direction.
+  double weight_of(double distance_m, double share) const {
+    const double e2 = share * distance_m * distance_m;
+    return e2 > gate2_ ? 0.0 : share * (adaptive_ ? sigma2_ / (sigma2_ + e2) : 1.0);
+  }
+
+  const TimedCloud& source_;
+  Eigen::Vector3d origin_;
+  bool refine_;
+  bool adaptive_;
+  double sigma2_;
+  double gate2_;
+  double scatter_noise2_;
+};
 
 }  // namespace
 
-void PlaneMatches::begin(const TimedCloud& source, const MotionState& state, std::size_t stride, std::size_t count) {
-  if (stride_ == 0) {
-    measure(source);
+void PlaneMatches::look_up(const LocalMap& map, std::size_t first, std::span<const Eigen::Vector3d> world,
+                           std::size_t stride) {
+  std::array<std::size_t, kChunkSize> moved{};
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < world.size(); ++k) {
+    Match& match = matches_[(first + k) * stride];
+    const VoxelIndex voxel = map.finest_voxel(world[k]);
+    if (!match.looked_up || (!frozen_ && match.voxel != voxel)) {
+      match = Match{};
+      match.looked_up = true;
+      match.voxel = voxel;
+      moved[count++] = k;
+    }
   }
-  matches_.assign(count, Match{});
-  stride_ = stride;
-  state_ = state;
-}
-
-void PlaneMatches::measure(const TimedCloud& source) {
-  double sum = 0.0;
-  for (const Eigen::Vector3f& p : source.points) {
-    sum += static_cast<double>(p.norm());
-  }
-  lever_m_ = source.points.empty() ? 0.0 : sum / static_cast<double>(source.size());
-  half_span_s_ = 0.0;
-  for (const float offset : source.offsets_s) {
-    half_span_s_ = std::max(half_span_s_, static_cast<double>(std::abs(offset)));
-  }
-}
-
-bool PlaneMatches::near(const MotionState& state) const {
-  // How far a typical point has moved: with the pose, and at either end of the sweep with the velocity.
-  const SE3 moved = state_.T_odom_lidar.inverse() * state.T_odom_lidar;
-  const Vector6d rate = state.twist - state_.twist;
-  const double turned_rad = so3_log(moved.linear()).norm() + half_span_s_ * rate.head<3>().norm();
-  return moved.translation().norm() + half_span_s_ * rate.tail<3>().norm() + lever_m_ * turned_rad < rematch_m_;
+  map.visit<LocalMap::Wanted::kPlanesAndScatter>(
+      0, count, [&](std::size_t j) { return world[moved[j]]; },
+      [&](std::size_t j, const Eigen::Vector3d&, const PlaneSpot& spot) {
+        Match& match = matches_[(first + moved[j]) * stride];
+        match.spot = spot;
+        if (!spot.scatter) {
+          const MapPlane plane = spot.grid->plane_at(spot);
+          match.normal = plane.normal.cast<float>();  // as the map keeps it
+          match.distance_m = plane.normal.dot(plane.point);
+          match.weight = plane.weight;
+        }
+      });
 }
 
 NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state,
                                         double sigma_th_m, const AdaptiveIcpConfig& config, std::size_t stride) {
-  const bool refine = source.timed() && config.refine_motion;
   const Eigen::Matrix3d R = state.T_odom_lidar.linear();
   const Eigen::Vector3d t = state.T_odom_lidar.translation();
   const SweepMotion motion = SweepMotion::during(source, state.twist);
-  const double gate = config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m;
-  const double sigma2 = sigma_th_m * sigma_th_m;
+  matches_.resize(source.size());
   const std::size_t count = (source.size() + stride - 1) / stride;
-  const bool keep = stride == stride_ && count == matches_.size() && near(state);
-  if (!keep) {
-    begin(source, state, stride, count);
-  }
   std::vector<NormalEquations> partial(chunk_count(count));
-  std::vector<Matrix6d> noise(keep ? 0 : chunk_count(count), Matrix6d::Zero());
+  std::vector<Matrix6d> noise(chunk_count(count), Matrix6d::Zero());
   for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    NormalEquations sum;
-    const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
-      return R * motion.compensated(source, k * stride).cast<double>() + t;
-    };
-    // Adds a point to the equations; returns its weight.
-    const auto add = [&](std::size_t k, const Eigen::Vector3d& world) {
-      const Match& match = matches_[k];
-      const double e = match.normal.dot(world) - match.distance;  // e_k = (p_k − q_k)·n_k
-      if (std::abs(e) > gate) {
-        return 0.0;
-      }
-      const double beta = config.adaptive ? sigma2 / (sigma2 + e * e) : 1.0;  // β_k
-      Vector6d J;                                                             // [(p × n)ᵀ nᵀ]
-      J << (world - t).cross(match.normal), match.normal;
-      if (refine) {
-        sum.add(J, e, beta, static_cast<double>(source.offsets_s[k * stride]));
-      } else {
-        sum.add(J, e, beta);
-      }
-      return beta;
-    };
-    if (keep) {
-      for (std::size_t k = first; k < last; ++k) {
-        if (matches_[k].found) {
-          add(k, point_at(k));
-        }
-      }
-    } else {
-      map.visit(first, last, point_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
-        const MapPlane plane = spot.grid->plane_at(spot);
-        matches_[k] = {plane.normal, plane.normal.dot(plane.point), true};
-        const double beta = add(k, world);
+    std::array<Eigen::Vector3d, kChunkSize> world;
+    for (std::size_t k = first; k < last; ++k) {
+      world[k - first] = R * motion.compensated(source, k * stride).cast<double>() + t;
+    }
+    look_up(map, first, {world.data(), last - first}, stride);
+    Equations equations(source, state.T_odom_lidar, sigma_th_m, config);
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t i = k * stride;
+      const Match& match = matches_[i];
+      const Eigen::Vector3d& p = world[k - first];
+      if (match.spot.scatter) {
+        equations.add(i, p, match.spot.grid->scatter_at(match.spot));
+      } else if (match.spot.grid != nullptr) {
+        const Eigen::Vector3d normal = match.normal.cast<double>();
+        const double distance_m = normal.dot(p) - match.distance_m;  // (p − q)·n
+        const double beta = equations.add(i, p, normal, distance_m, static_cast<double>(match.weight));
         if (k % kNoiseStride == 0 && beta > 0.0) {
-          noise[chunk] += beta * jacobian_noise(world - t, spot.grid->normal_covariance_at(spot));
+          noise[chunk] += jacobian_moment(p - t, beta * match.spot.grid->normal_covariance_at(match.spot));
         }
-      });
+      }
     }
-    partial[chunk] = sum;
+    partial[chunk] = equations.sums;
   });
-  if (!keep) {
-    normal_noise_.setZero();
-    for (const Matrix6d& part : noise) {
-      normal_noise_ += static_cast<double>(kNoiseStride) * part;
-    }
-  }
+  Matrix6d noises = Matrix6d::Zero();
   NormalEquations total;
-  for (const NormalEquations& sum : partial) {
-    total += sum;
+  for (std::size_t chunk = 0; chunk < partial.size(); ++chunk) {
+    total += partial[chunk];
+    noises += static_cast<double>(kNoiseStride) * noise[chunk];
   }
+  normal_noise_ = noises.selfadjointView<Eigen::Lower>();
   return total;
 }
 
 NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
                           const AdaptiveIcpConfig& config, std::size_t stride) {
-  return PlaneMatches(0.0).linearise(source, map, state, sigma_th_m, config, stride);
+  return PlaneMatches().linearise(source, map, state, sigma_th_m, config, stride);
 }
 
 }  // namespace rilo

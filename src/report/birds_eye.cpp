@@ -14,6 +14,8 @@ constexpr int kDensityLevels = 5;
 constexpr double kMaxPixels = 1500.0;  // longer side
 constexpr double kMinMetresPerPixel = 0.05;
 constexpr double kGroundCellM = 5.0;
+constexpr double kSteepestSlope = 0.3;
+constexpr std::size_t kWitnesses = 3;  // neighbours that a median needs
 constexpr float kNoGround = std::numeric_limits<float>::max();
 
 /// Regular cells over the area of the picture.
@@ -90,9 +92,20 @@ double pixel_size(const Box& box, std::size_t points) {
   return std::max({extent.maxCoeff() / kMaxPixels, kMinMetresPerPixel, 0.35 * spacing});
 }
 
-/// Height of the ground in each cell: the lowest tenth of its points, smoothed downwards over the neighbours so that a
-/// cell with a wall or a canopy alone borrows the ground beside it.
-std::vector<float> ground_heights(const std::vector<Eigen::Vector3f>& points, const Grid& grid) {
+/// Calls `visit` with each neighbour of a cell, the cell itself included.
+template <typename Visit>
+void for_neighbours(const Grid& grid, std::size_t cell, const Visit& visit) {
+  const int row = static_cast<int>(cell) / grid.columns;
+  const int column = static_cast<int>(cell) % grid.columns;
+  for (int r = std::max(0, row - 1); r <= std::min(grid.rows - 1, row + 1); ++r) {
+    for (int c = std::max(0, column - 1); c <= std::min(grid.columns - 1, column + 1); ++c) {
+      visit(static_cast<std::size_t>(r * grid.columns + c));
+    }
+  }
+}
+
+/// The lowest tenth of the points of each cell.
+std::vector<float> low_heights(const std::vector<Eigen::Vector3f>& points, const Grid& grid) {
   std::vector<std::vector<float>> heights(grid.size());
   for (const Eigen::Vector3f& p : points) {
     const std::ptrdiff_t cell = grid.cell_of(p);
@@ -106,16 +119,39 @@ std::vector<float> ground_heights(const std::vector<Eigen::Vector3f>& points, co
       low[i] = quantile(heights[i], 0.1);
     }
   }
-  std::vector<float> ground(low);
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      for (int r = std::max(0, row - 1); r <= std::min(grid.rows - 1, row + 1); ++r) {
-        for (int c = std::max(0, column - 1); c <= std::min(grid.columns - 1, column + 1); ++c) {
-          float& here = ground[static_cast<std::size_t>(row * grid.columns + column)];
-          here = std::min(here, low[static_cast<std::size_t>(r * grid.columns + c)]);
-        }
+  return low;
+}
+
+/// Mirrored returns lie below the ground: where a cell has few points they would pull the ground of all its neighbours
+/// down. A cell that lies deeper than a steep slope below the median of its neighbours gets that in its place.
+std::vector<float> without_pits(const std::vector<float>& low, const Grid& grid) {
+  std::vector<float> result(low);
+  std::vector<float> around;
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    around.clear();
+    for_neighbours(grid, i, [&](std::size_t j) {
+      if (j != i && low[j] != kNoGround) {
+        around.push_back(low[j]);
       }
+    });
+    if (low[i] == kNoGround || around.size() < kWitnesses) {
+      continue;
     }
+    const float usual = quantile(around, 0.5);
+    if (low[i] < usual - static_cast<float>(kSteepestSlope * grid.cell_m)) {
+      result[i] = usual;
+    }
+  }
+  return result;
+}
+
+/// Height of the ground in each cell, smoothed downwards over the neighbours so that a cell with a wall or a canopy
+/// alone borrows the ground beside it.
+std::vector<float> ground_heights(const std::vector<Eigen::Vector3f>& points, const Grid& grid) {
+  const std::vector<float> low = without_pits(low_heights(points, grid), grid);
+  std::vector<float> ground(low);
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    for_neighbours(grid, i, [&](std::size_t j) { ground[i] = std::min(ground[i], low[j]); });
   }
   return ground;
 }

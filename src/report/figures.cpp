@@ -7,17 +7,11 @@
 
 #include "html_text.hpp"
 #include "rilo/evaluation/alignment.hpp"
+#include "rilo/evaluation/percentile.hpp"
 
 namespace rilo {
 
 namespace {
-
-double percentile(const std::vector<double>& sorted, double q) {
-  const double place = q * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
 
 /// Number and lengths of the segments behind t_rel.
 std::string segments_of(const KittiError& kitti) {

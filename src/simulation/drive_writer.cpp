@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <iomanip>
 #include <set>
 #include <sstream>
@@ -14,6 +13,9 @@
 #include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "rilo/io/atomic_file.hpp"
+#include "rilo/io/pose_writer.hpp"
 
 namespace rilo {
 namespace {
@@ -25,30 +27,10 @@ namespace fs = std::filesystem;
   throw std::runtime_error(path.string() + ": " + what + ": " + reason);
 }
 
-constexpr std::string_view kTemporary = ".tmp";
-
-// Under another name first: whoever finds a file finds all of it, even of a program that was killed.
-void write_file(const fs::path& path, const void* bytes, std::size_t size) {
-  const fs::path temporary = path.string() + std::string(kTemporary);
-  errno = 0;
-  std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-  if (!file) fail(path, "cannot be opened for writing", errno);
-  file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-  file.close();
-  const int failure = errno;
-  std::error_code error;
-  if (!file) {
-    fs::remove(temporary, error);
-    fail(path, "cannot be written", failure);
-  }
-  fs::rename(temporary, path, error);
-  if (error) fail(path, "cannot be given its name", error.value());
-}
-
-void write_text(const fs::path& path, const std::string& text) { write_file(path, text.data(), text.size()); }
+constexpr std::string_view kTemporary = ".tmp";  // of earlier versions, killed
 
 void write_floats(const fs::path& path, const std::vector<float>& values) {
-  write_file(path, values.data(), values.size() * sizeof(float));
+  write_atomically(path, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
 }
 
 void create_folder(const fs::path& path) {
@@ -109,24 +91,15 @@ void write_sweep(const fs::path& folder, std::size_t i, const Sweep& sweep, doub
   write_floats(folder / "times_pt" / file_name(i), values);
 }
 
-void append_pose(std::ostream& text, const SE3& T) {
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) text << (row + column > 0 ? " " : "") << T.matrix()(row, column);
-  }
-  text << '\n';
-}
-
 struct PoseTexts {
-  std::ostringstream start, mid, end, times;
+  std::string start, mid, end;
+  std::ostringstream times;
 
-  PoseTexts() {
-    for (std::ostringstream* text : {&start, &mid, &end}) *text << std::scientific << std::setprecision(12);
-    times << std::scientific << std::setprecision(9);
-  }
+  PoseTexts() { times << std::scientific << std::setprecision(9); }
   void append(const SimulatedSweep& s) {
-    append_pose(start, s.T_odom_lidar_start);
-    append_pose(mid, s.T_odom_lidar_mid);
-    append_pose(end, s.T_odom_lidar_end);
+    start += kitti_line(s.T_odom_lidar_start);
+    mid += kitti_line(s.T_odom_lidar_mid);
+    end += kitti_line(s.T_odom_lidar_end);
     times << static_cast<double>(s.sweep.stamp_ns) * 1e-9 << '\n';
   }
 };
@@ -174,12 +147,12 @@ std::string description(const DriveSimulator& drive, const DriveSummary& summary
 }
 
 void write_texts(const DriveSimulator& drive, const fs::path& folder, const PoseTexts& poses) {
-  write_text(folder / "times.txt", poses.times.str());
-  write_text(folder / "calib.txt", calibration());
-  write_text(folder / "poses_start.txt", poses.start.str());
-  write_text(folder / "poses_mid.txt", poses.mid.str());
-  write_text(folder / "poses_end.txt", poses.end.str());
-  write_text(folder / "poses.txt", drive.config().deskewed ? poses.mid.str() : poses.end.str());
+  write_atomically(folder / "times.txt", poses.times.str());
+  write_atomically(folder / "calib.txt", calibration());
+  write_atomically(folder / "poses_start.txt", poses.start);
+  write_atomically(folder / "poses_mid.txt", poses.mid);
+  write_atomically(folder / "poses_end.txt", poses.end);
+  write_atomically(folder / "poses.txt", drive.config().deskewed ? poses.mid : poses.end);
 }
 
 }  // namespace
@@ -202,7 +175,7 @@ DriveSummary write_drive(const DriveSimulator& drive, const fs::path& folder, co
     go_on = !progress || progress(summary.sweeps, drive.size());
   }
   write_texts(drive, folder, poses);
-  write_text(folder / "meta.json", description(drive, summary));
+  write_atomically(folder / "meta.json", description(drive, summary));
   return summary;
 }
 

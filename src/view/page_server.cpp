@@ -138,7 +138,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 bool is_loopback(const std::string& address) { return numeric(address).is_loopback(); }
 
 PageServer::PageServer(asio::io_context& io, const std::string& address, std::optional<std::uint16_t> port, Hub& hub)
-    : hub_(hub), acceptor_(io) {
+    : hub_(hub), acceptor_(io), pause_(io) {
   const tcp::endpoint wanted(numeric(address), port.value_or(kViewPort));
   boost::system::error_code error;
   acceptor_.open(wanted.protocol(), error);
@@ -158,14 +158,25 @@ PageServer::PageServer(asio::io_context& io, const std::string& address, std::op
 void PageServer::accept() {
   acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted || !acceptor_.is_open()) return;
-    if (!error) std::make_shared<HttpConnection>(std::move(socket), hub_)->read();
+    if (error) return pause();
+    std::make_shared<HttpConnection>(std::move(socket), hub_)->read();
     accept();
+  });
+}
+
+// The connection stays in the queue when there are no file descriptors or no memory: at once it would fail again.
+void PageServer::pause() {
+  ++pauses_;
+  pause_.expires_after(kAcceptPause);
+  pause_.async_wait([this](beast::error_code error) {
+    if (!error && acceptor_.is_open()) accept();
   });
 }
 
 void PageServer::stop() {
   boost::system::error_code ignored;
   acceptor_.close(ignored);
+  pause_.cancel();
   for (const auto& socket : hub_.sockets) {
     if (const auto alive = socket.lock()) alive->close();
   }

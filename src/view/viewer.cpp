@@ -1,14 +1,7 @@
 #include "rilo/view/viewer.hpp"
 
-#include <atomic>
-#include <boost/asio/executor_work_guard.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/post.hpp>
 #include <condition_variable>
 #include <mutex>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <thread>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -18,15 +11,13 @@
 #include "page_files.hpp"
 #include "page_server.hpp"
 #include "rilo/io/io_error.hpp"
+#include "view_thread.hpp"
 
 namespace rilo {
-
-namespace asio = boost::asio;
 
 namespace {
 
 constexpr std::size_t kQueue = 4;  // sweeps with points on their way to the viewer's thread
-constexpr int kNice = 10;          // the odometry goes first
 
 }  // namespace
 
@@ -35,23 +26,18 @@ class Viewer::Impl {
   Impl(const ViewInfo& info, const ViewOptions& options)
       : unhurried_(options.share >= 1.0),
         hub_(info, options, view::is_loopback(options.address)),
-        work_(asio::make_work_guard(io_)),
-        server_(io_, options.address, options.port, hub_) {
+        server_(thread_.io(), options.address, options.port, hub_) {
     url_ = shown_url();
     server_.start();
-    thread_ = std::thread([this, polite = options.share < 1.0] {
-      // Of this thread alone, on Linux.
-      if (polite) setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
-      io_.run();
+    thread_.start(options.share < 1.0, [this] {
+      server_.stop();
+      const std::lock_guard lock(mutex_);
+      room_.notify_all();
     });
   }
 
   ~Impl() {
-    asio::post(io_, [this] {
-      server_.stop();
-      io_.stop();
-    });
-    thread_.join();
+    thread_.stop([this] { server_.stop(); });
   }
 
   Impl(const Impl&) = delete;
@@ -64,14 +50,14 @@ class Viewer::Impl {
     bool drop = false;
     if (has_points) {
       std::unique_lock lock(mutex_);
-      if (wait) room_.wait(lock, [this] { return waiting_ < kQueue; });
+      if (wait) room_.wait(lock, [this] { return waiting_ < kQueue || thread_.failed(); });
       drop = waiting_ >= kQueue;
       if (!drop) ++waiting_;
     }
     if (drop) sweep.sweep = Sweep{};
     // Shared, since handlers of this library's older versions are copied.
     auto shared = std::make_shared<const ViewSweep>(std::move(sweep));
-    asio::post(io_, [this, shared = std::move(shared), drop, counted = has_points && !drop] {
+    thread_.post([this, shared = std::move(shared), drop, counted = has_points && !drop] {
       hub_.history.add(*shared, unhurried_ || hub_.clients > 0);
       if (drop) hub_.history.count_dropped();
       hub_.dropped = hub_.history.progress().dropped;
@@ -85,23 +71,24 @@ class Viewer::Impl {
   }
 
   void add_map(std::vector<Eigen::Vector3f> points, std::vector<std::uint32_t> sweeps) {
-    asio::post(io_, [this, points = std::move(points), sweeps = std::move(sweeps)] {
+    thread_.post([this, points = std::move(points), sweeps = std::move(sweeps)] {
       hub_.history.add_map(points, sweeps);
       hub_.wake();
     });
   }
 
   void start_over() {
-    asio::post(io_, [this] { hub_.start_over(); });
+    thread_.post([this] { hub_.start_over(); });
   }
 
   void finish() {
-    asio::post(io_, [this] {
+    thread_.post([this] {
       hub_.history.finish();
       hub_.wake();
     });
   }
 
+  std::string failure() const { return thread_.failure(); }
   std::size_t clients() const { return hub_.clients; }
   std::size_t dropped() const { return hub_.dropped; }
 
@@ -120,14 +107,12 @@ class Viewer::Impl {
 
   bool unhurried_;  // residuals also while nobody looks
   view::Hub hub_;
-  asio::io_context io_{1};
-  asio::executor_work_guard<asio::io_context::executor_type> work_;
+  view::ViewThread thread_;
   view::PageServer server_;
   std::string url_;
   std::mutex mutex_;
   std::condition_variable room_;
   std::size_t waiting_ = 0;
-  std::thread thread_;
 };
 
 Viewer::Viewer(const ViewInfo& info, const ViewOptions& options) {
@@ -156,6 +141,8 @@ void Viewer::add_map(std::span<const Eigen::Vector3f> points, std::span<const st
 void Viewer::start_over() { impl_->start_over(); }
 
 void Viewer::finish() { impl_->finish(); }
+
+std::string Viewer::failure() const { return impl_->failure(); }
 
 std::size_t Viewer::clients() const { return impl_->clients(); }
 

@@ -5,16 +5,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench_cell_file.hpp"
-#include "bench_description.hpp"
-#include "bench_repeats.hpp"
-#include "bench_store.hpp"
-#include "content_hash.hpp"
+#include "bench/cell_file.hpp"
+#include "bench/content_hash.hpp"
+#include "bench/description.hpp"
+#include "bench/repeats.hpp"
+#include "bench/slurm_commands.hpp"
+#include "bench/store.hpp"
 #include "io/io_test_util.hpp"
 #include "rilo/io/io_error.hpp"
-#include "slurm_commands.hpp"
 
-namespace rilo::cli {
+namespace rilo {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,7 +26,8 @@ BenchCell made_cell(const std::string& sequence, std::size_t repeat, double ms, 
   cell.sequence = sequence;
   cell.configuration = "full";
   cell.repeat = repeat;
-  cell.metrics = {{"ms", {{"mean", ms}}}, {"evaluation", {{"ape_m", {{"rmse", ape}}}}}};
+  cell.metrics.ms.mean = ms;
+  cell.metrics.evaluation.ape_m.rmse = ape;
   cell.kitti = KittiError{};
   cell.kitti->segments = {{1, 2, 100, 0.25, 0.1}};
   return cell;
@@ -40,7 +41,7 @@ BenchJob made_job(const fs::path& data) {
   return job;
 }
 
-std::string key_of(BenchJob job, const BenchRunFlags& flags = {}) {
+std::string key_of(BenchJob job, const BenchRunOptions& flags = {}) {
   Describer(flags, {}).describe(job);
   return job.key;
 }
@@ -95,7 +96,7 @@ TEST(BenchKey, DependsOnAllThatTheResultDependsOn) {
   EXPECT_TRUE(differs([](BenchJob& j) { j.configuration.config.coarse.enabled = false; }));
   EXPECT_TRUE(differs([&](BenchJob& j) { j.sequence.ground_truth = folder.write("truth.txt", "1"); }));
   EXPECT_TRUE(differs([&](BenchJob& j) { j.sequence.peers = {{"p", folder.write("peer.txt", "1")}}; }));
-  BenchRunFlags flags;
+  BenchRunOptions flags;
   flags.source.options.bin_fields = "x,y,z";
   EXPECT_NE(key_of(job, flags), key);
 }
@@ -161,7 +162,7 @@ TEST(BenchRepeats, TimesAreMediansAndFindingsMustAgree) {
   EXPECT_EQ(value_of(one[0], bench_figure("ms_mean")), 20.0);
   EXPECT_EQ(value_of(one[0], bench_figure("ape_rmse_m")), 0.5);
   EXPECT_EQ(one[1].sequence, "b");
-  EXPECT_FALSE(one[1].metrics.contains("repeats"));
+  EXPECT_FALSE(one[1].metrics.repeats);
   const auto differing = combined({made_cell("a", 1, 30, 0.5), made_cell("a", 2, 10, 0.6)});
   EXPECT_TRUE(differing.at(0).failed());
   BenchCell failed = made_cell("a", 2, 1, 1);
@@ -198,4 +199,4 @@ TEST(Slurm, ProgramsAreRunToTheirEnd) {
 }
 
 }  // namespace
-}  // namespace rilo::cli
+}  // namespace rilo

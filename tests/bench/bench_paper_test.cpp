@@ -1,14 +1,13 @@
 // Which runs the data sets mean, and our columns beside the paper's.
-#include "bench_paper.hpp"
-
 #include <algorithm>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bench/paper.hpp"
 #include "io/io_test_util.hpp"
 
-namespace rilo::cli {
+namespace rilo {
 namespace {
 
 namespace fs = std::filesystem;
@@ -18,12 +17,12 @@ using testing::HasSubstr;
 
 BenchConfiguration configuration() { return {"rilo", {}, {}}; }
 
-BenchCell cell(const std::string& sequence, const std::string& name, double rmse) {
+BenchCell paper_cell(const std::string& sequence, const std::string& name, double rmse) {
   BenchCell made;
   made.sequence = sequence;
   made.configuration = name;
-  made.metrics = {{"evaluation", {{"ape_m", {{"rmse", rmse}, {"mean", rmse / 2}, {"std", rmse / 4}}}}},
-                  {"ms", {{"mean", 12.34}}}};
+  made.metrics.evaluation.ape_m = {rmse, rmse / 2, rmse / 4, {}, {}};
+  made.metrics.ms.mean = 12.34;
   return made;
 }
 
@@ -66,15 +65,15 @@ TEST(KittiJobs, NothingThere) {
   try {
     kitti_jobs(root.path(), configuration());
     FAIL();
-  } catch (const CommandError& error) {
-    EXPECT_EQ(error.code(), kBadData);
+  } catch (const RunError& error) {
+    EXPECT_EQ(error.kind(), RunErrorKind::kBadData);
     EXPECT_THAT(error.what(), HasSubstr("sequences/00/velodyne"));
   }
 }
 
 TEST(KittiTables, OursBesideThePapersAndAveragesOfTheSameSequences) {
-  const auto tables = kitti_tables({cell("00", "p, 0°", 4), cell("04", "p, 0°", 2), cell("00", "p, own estimate", 1),
-                                    cell("04", "p, own estimate", 3)});
+  const auto tables = kitti_tables({paper_cell("00", "p, 0°", 4), paper_cell("04", "p, 0°", 2),
+                                    paper_cell("00", "p, own estimate", 1), paper_cell("04", "p, own estimate", 3)});
   ASSERT_EQ(tables.size(), 2U);
   const TextTable& first = tables[0].table;
   ASSERT_EQ(first.header.size(), 1U + 3 * 7);
@@ -118,12 +117,12 @@ TEST(M2dgrJobs, FoldersBagsAndTruth) {
 
 TEST(M2dgrJobs, NothingThere) {
   const TempDir root;
-  EXPECT_THROW(m2dgr_jobs(root.path(), configuration()), CommandError);
-  EXPECT_THROW(m2dgr_jobs(root / "none", configuration()), CommandError);
+  EXPECT_THROW(m2dgr_jobs(root.path(), configuration()), RunError);
+  EXPECT_THROW(m2dgr_jobs(root / "none", configuration()), RunError);
 }
 
 TEST(M2dgrTables, NamesOfTheDataSetAreThoseOfThePaper) {
-  const auto tables = m2dgr_tables({cell("hall_01", "rilo", 0.5), cell("Lift_01", "rilo", 0.1)});
+  const auto tables = m2dgr_tables({paper_cell("hall_01", "rilo", 0.5), paper_cell("Lift_01", "rilo", 0.1)});
   ASSERT_EQ(tables.size(), 1U);
   EXPECT_THAT(row_of(tables[0].table, "paper"),
               ElementsAre("paper", "0.29", "0.25", "0.39", "0.47", "0.28", "0.15", "0.31", "0.22"));
@@ -131,4 +130,4 @@ TEST(M2dgrTables, NamesOfTheDataSetAreThoseOfThePaper) {
 }
 
 }  // namespace
-}  // namespace rilo::cli
+}  // namespace rilo

@@ -1,19 +1,19 @@
 // Tables, averages and results.json of cells made by hand.
-#include "bench_tables.hpp"
-
 #include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench_baseline.hpp"
-#include "bench_cell_file.hpp"
+#include "bench/baseline.hpp"
+#include "bench/cell_file.hpp"
+#include "bench/saved_results.hpp"
+#include "bench/tables.hpp"
 #include "io/io_test_util.hpp"
+#include "results/metrics_json.hpp"
 #include "rilo/io/io_error.hpp"
-#include "saved_results.hpp"
 
-namespace rilo::cli {
+namespace rilo {
 namespace {
 
 using test::TempDir;
@@ -30,25 +30,26 @@ BenchCell cell(const std::string& sequence, const std::string& configuration, do
   made.kitti = KittiError{};
   const double r_err = 2 * t_rel_pct / 100 * kPi / 180;  // 2 °/100 m for 1 %
   made.kitti->segments.assign(segments, KittiSegment{0, 1, 100, t_rel_pct / 100, r_err});
-  made.metrics = {{"frames", 12},
-                  {"ms", {{"mean", 10.0}, {"median", 9.0}, {"p95", 15.0}, {"p99", 18.0}, {"max", 20.0}}},
-                  {"mean_iterations", 4.5},
-                  {"selection_rate_pct", 25.0},
-                  {"coarse_rate_pct", 50.0},
-                  {"peak_rss_mb", 31.4},
-                  {"pose_instant", "mid"},
-                  {"elevation_correction_deg", 0.0},
-                  {"elevation_offset_applied_deg", 0.125},
-                  {"status", {{"ok", 11}, {"lost", 0}, {"initialising", 1}}},
-                  {"evaluation",
-                   {{"poses", 12},
-                    {"t_rel_pct", t_rel_pct},
-                    {"r_rel_deg_per_100m", 2 * t_rel_pct},
-                    {"truth_instant", "mid"},
-                    {"ape_m", {{"rmse", 0.5}, {"mean", 0.4}, {"std", 0.3}}},
-                    {"ape_unaligned_m", {{"rmse", 0.75}}},
-                    {"rpe_frame_m", {{"rmse", 0.01}}},
-                    {"rpe_frame_deg", {{"rmse", 0.02}}}}}};
+  made.metrics = metrics_of({{"frames", 12},
+                             {"ms", {{"mean", 10.0}, {"median", 9.0}, {"p95", 15.0}, {"p99", 18.0}, {"max", 20.0}}},
+                             {"mean_iterations", 4.5},
+                             {"selection_rate_pct", 25.0},
+                             {"coarse_rate_pct", 50.0},
+                             {"peak_rss_mb", 31.4},
+                             {"pose_instant", "mid"},
+                             {"elevation_correction_deg", 0.0},
+                             {"elevation_offset_applied_deg", 0.125},
+                             {"status", {{"ok", 11}, {"lost", 0}, {"initialising", 1}}},
+                             {"evaluation",
+                              {{"poses", 12},
+                               {"t_rel_pct", t_rel_pct},
+                               {"r_rel_deg_per_100m", 2 * t_rel_pct},
+                               {"truth_instant", "mid"},
+                               {"ape_m", {{"rmse", 0.5}, {"mean", 0.4}, {"std", 0.3}}},
+                               {"ape_unaligned_m", {{"rmse", 0.75}}},
+                               {"rpe_frame_m", {{"rmse", 0.01}}},
+                               {"rpe_frame_deg", {{"rmse", 0.02}}}}}},
+                            "test");
   return made;
 }
 
@@ -113,7 +114,9 @@ TEST(BenchTables, AFailedCellIsListedAndCountsInNoAverage) {
 TEST(BenchTables, APeerHasNoTimesAndARowOfItsOwn) {
   BenchCell peer = cell("a", "KISS", 2, 30);
   peer.peer = true;
-  peer.metrics = {{"evaluation", peer.metrics["evaluation"]}};
+  const EvaluationMetrics evaluation = peer.metrics.evaluation;
+  peer.metrics = {};
+  peer.metrics.evaluation = evaluation;
   const auto tables = bench_tables({cell("a", "x", 1, 30), peer});
   EXPECT_EQ(titled(tables, "Accuracy").table.rows.size(), 2U);
   EXPECT_EQ(titled(tables, "Effort").table.rows.size(), 1U);
@@ -130,8 +133,8 @@ TEST(BenchTables, WithoutCells) {
 
 TEST(BenchTables, NumbersThatAreNoneBecomeADash) {
   BenchCell odd = cell("a", "x", 1, 30);
-  odd.metrics["evaluation"]["t_rel_pct"] = nullptr;
-  odd.metrics["ms"] = nullptr;
+  odd.metrics.evaluation.t_rel_pct.reset();
+  odd.metrics.ms = {};
   EXPECT_FALSE(value_of(odd, bench_figure("t_rel_pct")).has_value());
   EXPECT_FALSE(value_of(odd, bench_figure("ms_max")).has_value());
   EXPECT_EQ(shown(std::nullopt, 2), "-");
@@ -179,4 +182,4 @@ TEST(SavedResults, AnythingElseIsRefused) {
 }
 
 }  // namespace
-}  // namespace rilo::cli
+}  // namespace rilo

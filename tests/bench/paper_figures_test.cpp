@@ -1,4 +1,6 @@
 // The numbers that are shipped are those of the paper.
+#include "bench/paper_figures.hpp"
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -9,9 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench_paper_figures.hpp"
-
-namespace rilo::cli {
+namespace rilo {
 namespace {
 
 constexpr double kPrinted = 0.0055;  // two digits behind the point, of columns that are rounded too
@@ -25,9 +25,9 @@ TEST(PaperFigures, EveryMethodHasEverySequence) {
   ASSERT_EQ(paper_table_2().size(), 5U);
   ASSERT_EQ(paper_table_3().size(), 5U);
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_EQ(paper_table_1()[i].sequences.size(), kKittiSequences.size());
-    EXPECT_EQ(paper_table_2()[i].sequences.size(), kKittiSequences.size());
-    EXPECT_EQ(paper_table_3()[i].sequences.size(), kM2dgrSequences.size());
+    EXPECT_EQ(paper_table_1()[i].sequences.size(), kitti_sequences().size());
+    EXPECT_EQ(paper_table_2()[i].sequences.size(), kitti_sequences().size());
+    EXPECT_EQ(paper_table_3()[i].sequences.size(), m2dgr_sequences().size());
     EXPECT_EQ(paper_table_1()[i].method, paper_table_2()[i].method);
     EXPECT_EQ(paper_table_1()[i].method, paper_table_3()[i].method);
   }
@@ -48,7 +48,7 @@ TEST(PaperFigures, RmseFollowsFromMeanAndDeviation) {
     for (std::size_t i = 0; i < method.sequences.size(); ++i) {
       if (method.method == "Fast-gicp" && i < 2) continue;  // so printed
       const auto& [rmse, mean, deviation] = method.sequences[i];
-      EXPECT_NEAR(rmse, std::hypot(mean, deviation), 0.035) << method.method << " " << kKittiSequences.at(i);
+      EXPECT_NEAR(rmse, std::hypot(mean, deviation), 0.035) << method.method << " " << kitti_sequences().at(i);
     }
   }
 }
@@ -91,10 +91,10 @@ std::string paper() {
 
 std::vector<double> shipped_table_1() {
   std::vector<double> all;
-  for (std::size_t i = 0; i <= kKittiSequences.size(); ++i) {
-    if (i < kKittiSequences.size()) all.push_back(std::atof(kKittiSequences.at(i)));
+  for (std::size_t i = 0; i <= kitti_sequences().size(); ++i) {
+    if (i < kitti_sequences().size()) all.push_back(std::stod(kitti_sequences().at(i)));
     for (const PaperApe& method : paper_table_1()) {
-      const ApeTriple& ape = i < kKittiSequences.size() ? method.sequences[i] : method.average;
+      const ApeTriple& ape = i < kitti_sequences().size() ? method.sequences[i] : method.average;
       all.insert(all.end(), ape.begin(), ape.end());
     }
   }
@@ -121,11 +121,11 @@ TEST(PaperFigures, EqualThePapersOwnSource) {
   EXPECT_EQ(first, wanted);
   auto second = numbers_of_table(tex, "tab2");
   const auto times = shipped(paper_table_2());
-  ASSERT_EQ(second.size(), times.size() + kKittiSequences.size());
-  second.erase(second.begin(), second.begin() + static_cast<std::ptrdiff_t>(kKittiSequences.size()));
+  ASSERT_EQ(second.size(), times.size() + kitti_sequences().size());
+  second.erase(second.begin(), second.begin() + static_cast<std::ptrdiff_t>(kitti_sequences().size()));
   EXPECT_EQ(second, times);
   EXPECT_EQ(numbers_of_table(tex, "tab3"), shipped(paper_table_3()));
 }
 
 }  // namespace
-}  // namespace rilo::cli
+}  // namespace rilo

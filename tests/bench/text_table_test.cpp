@@ -1,8 +1,8 @@
-#include "text_table.hpp"
+#include "bench/text_table.hpp"
 
 #include <gtest/gtest.h>
 
-namespace rilo::cli {
+namespace rilo {
 namespace {
 
 const TextTable kTable{{"name", "°"}, {{"a|b", "1.5"}, {"ü, \"x\"\ny", "-10"}, {"short"}}, 1};
@@ -39,4 +39,4 @@ TEST(TextTable, WithoutRows) {
 }
 
 }  // namespace
-}  // namespace rilo::cli
+}  // namespace rilo

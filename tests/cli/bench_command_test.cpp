@@ -145,6 +145,42 @@ TEST(BenchCommand, ComparesWithPoseFiles) {
   }
 }
 
+TEST(BenchCommand, SetsGivenPosesAndFiguresBesideOurs) {
+  const TempDir folder;
+  rilo_succeeds({"run", shared_drive(), "--out", folder / "peers" / "one", "--quiet"});
+  const auto plan = folder.write("plan.yaml", "sequences:\n" + sequence("one", shared_drive(), ", group: tuning") +
+                                                  sequence("two", shared_drive(), ", count: 6, group: reporting"));
+  const auto figures = folder.write("peers.csv",
+                                    "drive,peer,t_rel_pct,mean_ms,notes\none,same,99,12.5,a\n"
+                                    "one,lost,25.5,3,b\ntwo,lost,nan,,c\nelsewhere,lost,1,1,d\n");
+  const std::vector<std::string> command = {"bench",          plan,   "--out", folder / "out", "--quiet",
+                                            "--peer-figures", figures};
+  std::vector<std::string> with_poses = command;
+  with_poses.insert(with_poses.end(), {"--peer", "same=" + (folder / "peers/{sequence}/poses_lidar.txt").string()});
+  // The second sequence has no such poses.
+  rilo_fails(3, with_poses, {"two × same", "poses_lidar.txt"});
+  const json same = cell_of(json_file(folder / "out" / "results.json"), "one", "same");
+  EXPECT_LT(same["figures"]["t_rel_pct"].get<double>(), 99);
+  EXPECT_EQ(same["figures"]["ms_mean"], 12.5);
+  const Outcome bench = rilo_succeeds(command);
+  EXPECT_THAT(bench.out, HasSubstr("t_rel over that of the peers"));
+  EXPECT_THAT(bench.out, HasSubstr("lost by lost: one, two"));
+  const auto rows = lines_with(slurp(folder / "out" / "paired.csv"), "default,lost,");
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_THAT(rows[0], HasSubstr("default,lost,all,2,,"));
+  EXPECT_THAT(rows[0], HasSubstr(",2,0,"));
+  EXPECT_THAT(rows[0], HasSubstr(",,one two"));
+  EXPECT_THAT(rows[1], HasSubstr("default,lost,tuning,1,"));
+  EXPECT_THAT(rows[2], HasSubstr("default,lost,reporting,1,"));
+  EXPECT_EQ(rilo_succeeds({"bench", "show", folder / "out", "--paired", "--format", "csv"}).out,
+            slurp(folder / "out" / "paired.csv"));
+  EXPECT_THAT(rilo_succeeds({"bench", "show", folder / "out", "--paired", "--format", "markdown"}).out,
+              HasSubstr("| default | best peer | all | 2 |"));
+  rilo_fails(3, {"bench", plan, "--peer-figures", folder.write("no.csv", "drive,t_rel_pct\none,1\n")},
+             {"no.csv", "no column peer"});
+  rilo_fails(2, {"bench", plan, "--peer", "nothing"}, {"--peer nothing", "NAME=FILE"});
+}
+
 TEST(BenchCommand, DataAndRootOfTheCommandLine) {
   const TempDir folder;
   const auto plan = folder.write("plan.yaml", "sequences: [{path: drive}]\n");

@@ -1,4 +1,6 @@
 // rilo on a recording: the numbers of the same drive as files, and what was wrong with its stamps.
+#include <cmath>
+
 #include "cli/drives.hpp"
 #include "io/ros/ros_bytes.hpp"
 
@@ -36,6 +38,51 @@ TEST(RecordingCommand, RunGivesTheNumbersOfTheFiles) {
   EXPECT_NE(slurp(folder / "recording/report.html").find("drive.mcap"), std::string::npos);
 }
 
+// Frames of the messages in an uncompressed MCAP: text with its length and final zero.
+bool has_frame(const std::filesystem::path& mcap, const std::string& frame) {
+  return slurp(mcap).find(Bytes(true).string(frame).text) != std::string::npos;
+}
+
+TEST(RecordingCommand, FramesOfTheDataOrAsGiven) {
+  const TempDir folder;
+  std::vector<Recorded> messages;
+  for (const Sweep& sweep : numbered_sweeps(3)) {
+    CloudMessage message = message_of(sweep);
+    message.frame_id = "/velodyne";  // ROS 1 allowed the slash
+    messages.push_back({"/points", sweep.stamp_ns, message_bytes(message, MessageEncoding::kCdr)});
+  }
+  const auto file = folder.write("drive.mcap", mcap_bytes({{"/points", kRos2Type}}, messages, {}));
+  rilo_succeeds({"run", file, "--out", folder / "own", "--quiet", "--no-report"});
+  EXPECT_TRUE(has_frame(folder / "own/trajectory.mcap", "velodyne"));
+  EXPECT_TRUE(has_frame(folder / "own/trajectory.mcap", "odom"));
+  EXPECT_FALSE(has_frame(folder / "own/trajectory.mcap", "lidar"));
+  rilo_succeeds({"run", file, "--out", folder / "given", "--quiet", "--no-report", "--lidar-frame", "top_lidar",
+                 "--odom-frame", "map"});
+  EXPECT_TRUE(has_frame(folder / "given/trajectory.mcap", "top_lidar"));
+  EXPECT_TRUE(has_frame(folder / "given/trajectory.mcap", "map"));
+  EXPECT_FALSE(has_frame(folder / "given/trajectory.mcap", "odom"));
+  EXPECT_FALSE(has_frame(folder / "given/trajectory.mcap", "velodyne"));
+}
+
+// Data without frames, whose first stamp is 0: the middle of azimuth times lies some hundred ns before it.
+TEST(RecordingCommand, NoNegativeStamps) {
+  const TempDir folder;
+  for (int i = 0; i < 3; ++i) {
+    std::string bytes;
+    for (int k = 0; k < 2000; ++k) {
+      const float angle = (static_cast<float>(k) + 0.5F) * 3.1415927F / 1000 - 3.1415627F;
+      for (const float value : {10 * std::cos(angle), 10 * std::sin(angle), 0.1F * static_cast<float>(k % 7), 1.0F}) {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+      }
+    }
+    folder.write("d/velodyne/" + std::to_string(i) + ".bin", bytes);
+  }
+  folder.write("d/times.txt", "0.0\n0.1\n0.2\n");
+  rilo_succeeds({"run", folder / "d", "--out", folder / "out", "--quiet", "--no-report", "--point-times", "azimuth"});
+  EXPECT_EQ(slurp(folder / "out/trajectory.tum").find("0.000000000 "), 0U) << slurp(folder / "out/trajectory.tum");
+  EXPECT_TRUE(has_frame(folder / "out/trajectory.mcap", "lidar"));
+}
+
 TEST(RecordingCommand, InfoSaysTopicAndFrame) {
   const TempDir folder;
   const auto file = recording(folder, "/rear");
@@ -53,7 +100,7 @@ TEST(RecordingCommand, InfoSaysTopicAndFrame) {
 TEST(RecordingCommand, SeveralTopicsAreListed) {
   const TempDir folder;
   rilo_fails(3, {"run", recording(folder), "--out", folder / "out"},
-             {"drive.mcap", "2 PointCloud2 topics", "/points (sensor_msgs/msg/PointCloud2, 13 messages)",
+             {"drive.mcap", "2 topics of point clouds", "/points (sensor_msgs/msg/PointCloud2, 13 messages)",
               "/rear (sensor_msgs/msg/PointCloud2, 0 messages)", "--topic"});
 }
 

@@ -29,6 +29,50 @@ TEST(RunFlags, CountBeyondTheEndAndStartBeyondTheEnd) {
   rilo_fails(3, {"run", shared_drive(), "--start", "12"}, {"no sweep"});
 }
 
+TEST(RunFlags, AStartBeyondTheEndNamesBothNumbers) {
+  rilo_fails(3, {"run", shared_drive(), "--start", "500"}, {"start 500 is past the last of 12 sweeps"});
+}
+
+TEST(RunFlags, WithoutOutItSaysThatNothingIsKept) {
+  const TempDir folder;
+  const std::string note = "results are not kept; --out FOLDER keeps them";
+  EXPECT_NE(rilo_succeeds({"run", shared_drive(), "--count", "1"}).err.find(note), std::string::npos);
+  EXPECT_EQ(rilo_succeeds({"run", shared_drive(), "--count", "1", "--out", folder / "out"}).err.find(note),
+            std::string::npos);
+}
+
+TEST(RunFlags, WithoutPointTimesItSaysWhatToDo) {
+  const TempDir folder;
+  const auto sweeps = long_folder(folder, 2);
+  const auto notes = [&](const std::string& times) {
+    return lines_with(rilo_succeeds({"run", sweeps, "--point-times", times, "--count", "2"}).err,
+                      "rilo: note: no per-point times")
+        .size();
+  };
+  EXPECT_EQ(notes("auto"), 1U);
+  EXPECT_EQ(notes("none"), 0U);
+  EXPECT_EQ(notes("azimuth"), 0U);
+}
+
+TEST(RunFlags, AMapWithoutAFolderGoesIntoOutAndAStaleOneGoesAway) {
+  const TempDir folder;
+  const auto out = folder / "out";
+  const std::vector<std::string> run = {"run", shared_drive(), "--count", "2", "--no-report", "--quiet", "--out", out};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), run.begin(), run.end());
+    rilo_succeeds(more);
+  };
+  with({"--map", "map.ply"});
+  EXPECT_TRUE(std::filesystem::exists(out / "map.ply"));
+  with({"--map", out / "map.pcd"});
+  EXPECT_TRUE(std::filesystem::exists(out / "map.pcd"));
+  EXPECT_FALSE(std::filesystem::exists(out / "map.ply")) << "of an earlier run";
+  with({"--map", "other.ply"});
+  with({});
+  EXPECT_FALSE(std::filesystem::exists(out / "map.pcd")) << "of an earlier run";
+  EXPECT_TRUE(std::filesystem::exists(out / "other.ply")) << "may be somebody's";
+}
+
 TEST(RunFlags, JsonIsTheMetricsFile) {
   const TempDir folder;
   const json printed = metrics_of({"--count", "3", "--out", folder / "out"});

@@ -117,7 +117,7 @@ TEST(RunOutputs, AllFilesArePresentAndParse) {
   const TempDir folder;
   const auto out = folder / "results" / "nested";
   const Outcome run = rilo_succeeds({"run", shared_drive(), "--out", out, "--threads", "2"});
-  for (const char* part : {"12 sweeps", "time per sweep", "peak memory", "elevation correction", "APE"}) {
+  for (const char* part : {"12 sweeps", "time per sweep", "peak memory", "pose time", "APE"}) {
     EXPECT_NE(run.out.find(part), std::string::npos) << part << " in\n" << run.out;
   }
   const json metrics = json_file(out / "metrics.json");

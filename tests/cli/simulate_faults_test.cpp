@@ -69,7 +69,7 @@ TEST(SimulateFaults, ALimitOnTheSizeOfFilesLeavesNoHalfOnes) {
   ASSERT_GT(fs::file_size(sweep_file(shared_drive(), 0)), 100'000U);
   {
     const Limit limit(RLIMIT_FSIZE, 100'000);
-    rilo_fails(4, same_drive_into(out), {"000000.bin", "cannot be written", "File too large"});
+    rilo_fails(4, same_drive_into(out), {"000000.bin", "cannot write", "File too large"});
   }
   EXPECT_EQ(files_below(out), 0U);
 }
@@ -79,7 +79,7 @@ TEST(SimulateFaults, AFullDiskKeepsTheSweepsThatFit) {
   const auto out = folder / "disk";
   const SmallDisk disk(out, "size=2m");
   if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here";
-  rilo_fails(4, same_drive_into(out), {".bin", "cannot be written", "No space left"});
+  rilo_fails(4, same_drive_into(out), {".bin", "cannot write", "No space left"});
   EXPECT_GT(files_in(out / "velodyne"), 0U);
   expect_files_of_the_drive(out);
   EXPECT_FALSE(fs::exists(out / "meta.json"));

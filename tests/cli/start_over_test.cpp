@@ -35,8 +35,8 @@ TEST(StartOver, OnceTheErrorIsCertain) {
   EXPECT_LT(metrics["started_over_after_sweeps"], kSweeps);
   EXPECT_EQ(metrics["frames"], kSweeps);
   EXPECT_EQ(lines_of(slurp(folder / "two" / "poses_lidar.txt")).size(), kSweeps);
-  EXPECT_NE(run.err.find("starting over"), std::string::npos) << run.err;
-  EXPECT_NE(run.out.find("started over"), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find("restarting with it"), std::string::npos) << run.err;
+  EXPECT_NE(run.out.find("restarted after"), std::string::npos) << run.out;
 
   // The configuration that is left tells the whole story: with it the same poses come out at once.
   rilo_succeeds({"run", data, "--out", folder / "again", "--point-times", "none", "--no-report", "--config",

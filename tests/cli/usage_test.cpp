@@ -66,5 +66,19 @@ TEST(Usage, WrongCommandLinesEndWith2AndOneLine) {
   }
 }
 
+TEST(Usage, NamesTheWordThatIsWrongAndTheOneThatWasMeant) {
+  rilo_fails(2, {"rum", "drive"}, {"unknown subcommand \"rum\"", "did you mean rilo run?", "rilo --help"});
+  rilo_fails(2, {"xyzzy"}, {"unknown subcommand \"xyzzy\". See: rilo --help"});
+  rilo_fails(2, {"run", "d", "--outt", "x"}, {"unknown option --outt", "did you mean --out?", "rilo run --help"});
+  rilo_fails(2, {"run", "d", "--output=x"}, {"unknown option --output", "did you mean --out?"});
+  rilo_fails(2, {"run", "d", "-o", "x"}, {"unknown option -o", "did you mean --out?"});
+  rilo_fails(2, {"run", "d", "---"}, {"---"});
+  rilo_fails(2, {"run", "d", "more"}, {"unexpected argument \"more\"", "rilo run --help"});
+  rilo_fails(2, {"bench", "show", "x", "--formatt", "csv"}, {"--formatt", "did you mean --format?", "rilo bench show"});
+  rilo_fails(2, {"run", "d", "--count", "-3"}, {"\"-3\" is not a non-negative integer"});
+  rilo_fails(2, {"run", "d", "--threads", "-3"}, {"\"-3\" is not an integer from 0 to 1024"});
+  rilo_fails(2, {"run", "d", "--rate", "x"}, {"\"x\" is not a number from"});
+}
+
 }  // namespace
 }  // namespace rilo::test

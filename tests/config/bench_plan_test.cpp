@@ -69,6 +69,28 @@ configurations:
   EXPECT_THAT(plan.configurations[1].settings, ElementsAre("icp.gate=2", "coarse.enabled=false"));
 }
 
+TEST(BenchPlan, peers_of_every_sequence) {
+  BenchPlan plan = plan_of(R"(
+sequences:
+  - {path: drives/one, group: tuning}
+  - {path: drives/two, peers: {KISS: mine.txt}}
+peers: {KISS: "peers/{sequence}/kiss_{sequence}.txt", other: "/p/{sequence}.tum"}
+peer_figures: peers/figures.csv
+)");
+  EXPECT_EQ(plan.peer_figures, "folder/peers/figures.csv");
+  EXPECT_EQ(plan.sequences[0].group, "tuning");
+  EXPECT_TRUE(plan.sequences[1].group.empty());
+  give_peers(plan);
+  ASSERT_EQ(plan.sequences[0].peers.size(), 2U);
+  EXPECT_EQ(plan.sequences[0].peers[0].poses, "folder/peers/one/kiss_one.txt");
+  EXPECT_EQ(plan.sequences[0].peers[1].poses, "/p/one.tum");
+  ASSERT_EQ(plan.sequences[1].peers.size(), 2U);
+  EXPECT_EQ(plan.sequences[1].peers[0].poses, "folder/mine.txt");
+  EXPECT_EQ(plan.sequences[1].peers[1].poses, "/p/two.tum");
+  EXPECT_THAT(plan_message("sequences: [{path: a}]\nconfigurations: [{name: KISS}]\npeers: {KISS: a.txt}"),
+              HasSubstr("\"KISS\" is both a configuration and a peer"));
+}
+
 TEST(BenchPlan, sequences_count_from_the_root_and_configurations_from_the_file) {
   const BenchPlan plan = parse_bench_plan("sequences: [{path: a, peers: {p: p.txt}}]", "folder/plan.yaml", "root");
   EXPECT_EQ(plan.sequences.at(0).path, "root/a");
@@ -109,7 +131,7 @@ TEST(BenchPlan, refusals_say_where_and_what) {
       {"configurations: [{name: a, set: [icp.gate]}]", {"key=value"}},
       {"configurations: [{name: a, set: icp.gate=2}]", {"a list of key=value"}},
       {"configurations: [{name: a, set: [preprocess.max_range_m=2, preprocess.min_range_m=3]}]", {"max_range_m"}},
-      {"a: b: c", {"no YAML"}},
+      {"a: b: c", {"not valid YAML"}},
       {"sequences: [{path: a}]\n---\nb: c", {"second document"}},
   };
   for (const auto& [yaml, parts] : cases) {

@@ -123,7 +123,7 @@ TEST(LoadConfig, values_that_contradict_each_other_are_refused) {
 }
 
 TEST(LoadConfig, text_that_is_no_yaml_or_more_than_one_document_is_refused_with_its_place) {
-  EXPECT_THAT(config_message("icp: {gate: 3\n"), HasSubstr("no YAML"));
+  EXPECT_THAT(config_message("icp: {gate: 3\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(config_message("a: b: c"), AllOf(HasSubstr("my.yaml"), HasSubstr("line 1")));
   EXPECT_THAT(config_message("threads: 1\n---\nthreads: 2\n"), HasSubstr("second document"));
 }
@@ -131,6 +131,8 @@ TEST(LoadConfig, text_that_is_no_yaml_or_more_than_one_document_is_refused_with_
 TEST(Overrides, the_last_one_wins_and_mistakes_name_the_option) {
   EXPECT_EQ(with_overrides({}, {"threads=1", "threads=2"}).threads, 2);
   EXPECT_THAT(override_message({"threads"}), HasSubstr("key=value"));
+  EXPECT_THAT(override_message({"voxel_size=3"}), HasSubstr("map.voxel_m"));
+  EXPECT_THAT(override_message({"icp.foo=3"}), HasSubstr("Did you mean icp."));
   EXPECT_THAT(override_message({"=3"}), HasSubstr("unknown key"));
   EXPECT_THAT(override_message({"icp=3"}), HasSubstr("unknown key"));
   EXPECT_THAT(override_message({"icp.gat=3"}), HasSubstr("Did you mean icp.gate?"));

@@ -122,5 +122,21 @@ TEST(VoxelTest, KeyByHand) {
   EXPECT_EQ(voxel_key({-1, -1, -1}), (1ULL << 63U) - 1U);
 }
 
+TEST(VoxelTest, AKeyMeansTheVoxelNearestToThePlace) {
+  constexpr int kRound = 1 << 21;
+  const auto back = [](const VoxelIndex& v, const VoxelIndex& place) { return voxel_of_key(voxel_key(v), place); };
+  for (const int far : {0, kRound, -3 * kRound, 1000 * kRound + 12345, -(1 << 30)}) {
+    const VoxelIndex place{far, -far, far / 2};
+    for (const int off : {0, 1, -1, 5000, (1 << 20) - 1, -(1 << 20)}) {
+      const VoxelIndex v{place.x + off, place.y - off / 2, place.z + off / 3};
+      const VoxelIndex found = back(v, place);
+      EXPECT_EQ(found.x, v.x);
+      EXPECT_EQ(found.y, v.y);
+      EXPECT_EQ(found.z, v.z);
+    }
+  }
+  EXPECT_EQ(back({kRound + 7, 0, 0}, {0, 0, 0}).x, 7);
+}
+
 }  // namespace
 }  // namespace rilo

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rilo/cloud/elevation.hpp"
 #include "rilo/map/local_map.hpp"
 
 namespace rilo {
@@ -53,6 +54,89 @@ TEST(LocalMapTest, OnePointIsInEveryLevelAndGivenBackOnce) {
   EXPECT_TRUE(map.empty());
   EXPECT_EQ(map.size(), 0U);
   EXPECT_TRUE(map.points().empty());
+}
+
+// Look-ups of many points, level by level, find what each level's own look-up finds: the finest plane, or the finest
+// points that are not a plane.
+TEST(LocalMapTest, ManyPointsMeetWhatTheirLevelsHold) {
+  LocalMapConfig config = config_of(4);
+  config.scatter_voxel_m = 0.5;
+  LocalMap map(config);
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<float> side(-6.0F, 6.0F);
+  Points points = patch(0.0F, 0.0F, 0.02F, 10.0F, 4000);
+  for (int i = 0; i < 4000; ++i) {
+    points.emplace_back(side(rng), side(rng), std::abs(side(rng)));
+  }
+  map.insert(points, SE3::Identity());
+  std::vector<PlaneGrid> levels;
+  for (int level = 0; level < config.levels; ++level) {
+    const double voxel_m = std::ldexp(config.voxel_m, level);
+    levels.emplace_back(
+        voxel_m,
+        PlaneCriteria{config.min_points, static_cast<int>(config.max_points * std::pow(1.5, level)),
+                      config.max_planarity, config.min_extent * voxel_m, config.range_noise_m, config.angle_noise_rad});
+    std::vector<InsertedPoint> inserted;
+    for (const Eigen::Vector3f& p : points) {
+      inserted.push_back({p.cast<double>(), p, elevation_lever(p)});
+    }
+    levels.back().insert(inserted);
+    levels.back().refit();
+  }
+  std::vector<Eigen::Vector3d> probes;
+  for (int i = 0; i < 1000; ++i) {
+    probes.emplace_back(side(rng), side(rng), 0.3 * static_cast<double>(side(rng)));
+  }
+  std::vector<PlaneSpot> met(probes.size());
+  map.visit<LocalMap::Wanted::kPlanesAndScatter>(
+      0, probes.size(), [&](std::size_t k) { return probes[k]; },
+      [&](std::size_t k, const Eigen::Vector3d&, const PlaneSpot& spot) { met[k] = spot; });
+  int planes = 0;
+  int scatters = 0;
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const PlaneGrid* expected = nullptr;
+    PlaneSpot spot;
+    for (const PlaneGrid& grid : levels) {
+      if (expected == nullptr && grid.locate(probes[k], spot)) expected = &grid;
+    }
+    const bool plane = expected != nullptr;
+    for (const PlaneGrid& grid : levels) {
+      if (expected == nullptr && grid.voxel_m() >= config.scatter_voxel_m &&
+          grid.look_up(grid.index_of(probes[k]), spot) == PlaneGrid::Kind::kScatter) {
+        expected = &grid;
+      }
+    }
+    ASSERT_EQ(met[k].grid != nullptr, expected != nullptr) << k;
+    if (expected == nullptr) continue;
+    EXPECT_EQ(met[k].grid->voxel_m(), expected->voxel_m()) << k;
+    EXPECT_EQ(met[k].scatter, !plane) << k;
+    EXPECT_EQ(met[k].index, spot.index) << k;
+    ++(plane ? planes : scatters);
+  }
+  EXPECT_GT(planes, 50);
+  EXPECT_GT(scatters, 50);
+}
+
+// The keys of 0.01 m voxels repeat after 21 km.
+TEST(LocalMapTest, ADriveOf25KilometresWithTheSmallestVoxels) {
+  LocalMapConfig config = config_of(3);
+  config.voxel_m = 0.01;
+  LocalMap map(config);
+  const Points ground = patch(0.0F, 0.0F, 0.005F, 0.5F, 2000);
+  std::size_t most = 0;
+  for (int step = 0; step <= 500; ++step) {
+    SE3 T_odom_lidar = SE3::Identity();
+    T_odom_lidar.translation() = Eigen::Vector3d(-50.0 * step, 30.0 * step, 5.0 * step);
+    map.insert(ground, T_odom_lidar);
+    map.evict(T_odom_lidar.translation());
+    MapPlane plane;
+    ASSERT_TRUE(map.find(T_odom_lidar * Eigen::Vector3d(0.0, 0.0, 0.005), plane)) << step;
+    ASSERT_NEAR((T_odom_lidar.inverse() * plane.point).norm(), 0.0, 0.05) << step;
+    ASSERT_NEAR(std::abs(plane.normal.z()), 1.0, 1e-3) << step;
+    if (step == 50) most = map.size();
+  }
+  EXPECT_LE(map.size(), 2 * most);  // what is left behind is evicted
+  for (const Eigen::Vector3f& p : map.points()) ASSERT_LT((p - Eigen::Vector3f(-25000, 15000, 2500)).norm(), 3000.0F);
 }
 
 TEST(LocalMapTest, TheFinestLevelWithAPlaneAnswers) {

@@ -15,9 +15,18 @@ namespace rilo::test {
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kDegree = kPi / 180.0;
 
+/// A map of points without noise: exact planes count in full.
+inline LocalMapConfig exact_map_config() {
+  LocalMapConfig config;
+  config.range_noise_m = 0.0;
+  config.angle_noise_rad = 0.0;
+  config.scatter_voxel_m = 0.0;
+  return config;
+}
+
 /// The voxels that the scenes are made for.
 inline LocalMapConfig scene_map_config() {
-  LocalMapConfig config;
+  LocalMapConfig config = exact_map_config();
   config.voxel_m = 0.25;
   return config;
 }
@@ -62,7 +71,7 @@ inline std::vector<Eigen::Vector3f> seen_from(const SE3& T_world_sensor, const s
 
 /// A map of one fine level and its parent.
 inline LocalMap map_of(const std::vector<Eigen::Vector3d>& world) {
-  LocalMapConfig config;
+  LocalMapConfig config = exact_map_config();
   config.voxel_m = 0.5;
   config.levels = 2;
   LocalMap map(config);

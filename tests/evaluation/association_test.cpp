@@ -56,6 +56,15 @@ TEST(MatchByStamp, FarStampsDoNotOverflow) {
   EXPECT_EQ(match_by_stamp(stamped({kMin, kMax}), stamped({kMax, kMin}), 0).truth.size(), 2U);
 }
 
+TEST(MatchByStamp, SaysTheToleranceInSeconds) {
+  try {
+    match_by_stamp(stamped({0, 100}), stamped({1'000'000'000, 2'000'000'000}), 20'000'000);
+    FAIL() << "matched";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("within 0.02 s; check that both use the same clock"));
+  }
+}
+
 TEST(MatchByStamp, RefusesWhatCannotBeEvaluated) {
   EXPECT_THROW(match_by_stamp(stamped({0, 1}), stamped({0, 1}), -1), std::invalid_argument);
   EXPECT_THROW(match_by_stamp(stamped({}), stamped({0, 1}), 5), std::invalid_argument);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "rilo/evaluation/percentile.hpp"
+
 namespace rilo {
 namespace {
 
@@ -28,6 +30,16 @@ TEST(ErrorSummary, EmptyIsZero) {
 TEST(ErrorSummary, StdSurvivesALargeMean) {
   const ErrorSummary s = summarise({1e9 + 1.0, 1e9 - 1.0});
   EXPECT_NEAR(s.std, 1.0, 1e-9);
+}
+
+TEST(Percentile, IsLinearBetweenTheNearestRanksAsInNumpy) {
+  const std::vector<double> values = {10, 20, 30, 50};
+  EXPECT_DOUBLE_EQ(percentile(values, 0.5), 25.0);
+  EXPECT_DOUBLE_EQ(percentile(values, 0.95), 47.0);
+  EXPECT_EQ(percentile(values, 0), 10.0);
+  EXPECT_EQ(percentile(values, 1), 50.0);
+  EXPECT_EQ(percentile({7}, 0.3), 7.0);
+  EXPECT_EQ(percentile({}, 0.5), 0.0);
 }
 
 }  // namespace

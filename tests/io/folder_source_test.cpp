@@ -94,6 +94,48 @@ TEST(FolderSourceTest, StampsFromTheNamesOrTheTimesFile) {
   EXPECT_EQ(open_scan_source(folder / "t")->next()->stamp_ns, 77'500'000'000);
 }
 
+std::vector<std::int64_t> stamps_of(const std::filesystem::path& path) {
+  std::vector<std::int64_t> stamps;
+  const auto source = open_scan_source(path);
+  while (const auto sweep = source->next()) stamps.push_back(sweep->stamp_ns);
+  return stamps;
+}
+
+TEST(FolderSourceTest, StampsFromTimestampsBesideOrAbove) {
+  const std::vector<std::int64_t> kExpected{1'317'042'145'951'199'337, 1'317'042'146'054'503'000};
+  for (const char* text :
+       {"2011-09-26 13:02:25.951199337\n2011-09-26 13:02:26.054503000\n",
+        "# ns\n1317042145951199337\n\n1317042146054503000\n", "1317042145.951199337\n1317042146.054503\n"}) {
+    for (const char* place : {"d/lidar/timestamps.txt", "d/times.txt", "d/timestamps.txt"}) {
+      SCOPED_TRACE(std::string(place) + ": " + text);
+      const TempDir folder;
+      folder.write("d/lidar/1.bin", bin_of(1));
+      folder.write("d/lidar/2.bin", bin_of(2));
+      folder.write(place, text);
+      EXPECT_EQ(stamps_of(folder / "d/lidar"), kExpected);
+      EXPECT_TRUE(open_scan_source(folder / "d/lidar")->info().warnings.empty());
+    }
+  }
+}
+
+TEST(FolderSourceTest, TimestampsThatDoNotFitAreNamed) {
+  const TempDir folder;
+  folder.write("d/lidar/1.bin", bin_of(1));
+  folder.write("d/timestamps.txt", "0.5\n0.6\n");
+  folder.write("d/lidar/timestamps.txt", "noon\n");
+  const auto info = open_scan_source(folder / "d/lidar")->info();
+  EXPECT_TRUE(info.stamps_assumed);
+  EXPECT_TRUE(test::has_warning(info, "d/timestamps.txt: 2 stamps for 1 sweeps"));
+  EXPECT_TRUE(test::has_warning(info, "lidar/timestamps.txt, line 1: 'noon'"));
+  EXPECT_TRUE(test::has_warning(info, "no timestamps found; assuming 10 Hz"));
+  // A KITTI sequence has its times beside velodyne/; what lies above that is of other data.
+  folder.write("s/00/velodyne/1.bin", bin_of(1));
+  folder.write("s/timestamps.txt", "0.5\n");
+  EXPECT_EQ(stamps_of(folder / "s/00"), std::vector<std::int64_t>{0});
+  folder.write("s/00/timestamps.txt", "0.5\n");
+  EXPECT_EQ(stamps_of(folder / "s/00"), std::vector<std::int64_t>{500'000'000});
+}
+
 TEST(FolderSourceTest, SingleFile) {
   const TempDir folder;
   write_ply(folder / "a.ply", marked(4));
@@ -109,16 +151,21 @@ TEST(FolderSourceTest, SingleFile) {
 TEST(FolderSourceTest, FoldersThatAreNoData) {
   const TempDir folder;
   std::filesystem::create_directory(folder / "empty");
-  expect_io_error([&] { open_scan_source(folder / "empty"); }, {"empty", "no .bin, .pcd or .ply", "0 other files"});
+  expect_io_error([&] { open_scan_source(folder / "empty"); },
+                  {"empty", "no sweeps here (.bin, .pcd, .ply), 0 other files"});
   std::filesystem::create_directory(folder / "seq");
   std::filesystem::create_directory(folder / "seq/velodyne");
-  expect_io_error([&] { open_scan_source(folder / "seq"); }, {"seq/velodyne", "no .bin"});
+  expect_io_error([&] { open_scan_source(folder / "seq"); }, {"seq/velodyne", "no sweeps here"});
   folder.write("mixed/a.bin", "");
   folder.write("mixed/b.bin", "");
   folder.write("mixed/c.pcd", "");
   expect_io_error([&] { open_scan_source(folder / "mixed"); }, {"mixed", "2 .bin and 1 .pcd"});
   std::filesystem::create_directories(folder / "root/sequences/00");
   expect_io_error([&] { open_scan_source(folder / "root/sequences"); }, {"the folders 00", "the sweeps themselves"});
+  folder.write("drive/lidar/data/0.pcd", "");
+  expect_io_error([&] { open_scan_source(folder / "drive"); },
+                  {"no sweeps here", "subfolder lidar/data/ has 1 .pcd", "Give that subfolder"});
+  expect_io_error([&] { open_scan_source(folder / "drive/lidar"); }, {"subfolder data/ has 1 .pcd"});
 }
 
 TEST(FolderSourceTest, BadSweepFailsAndTheNextIsRead) {

@@ -253,6 +253,15 @@ TEST(PointTimesTest, ExtremeIntegersDoNotOverflow) {
   expect_refused(integers("time", ScalarType::kUint64, {kMost - 100'000, kMost}), {}, {"64 bits of ns"});
 }
 
+TEST(PoseStampTest, TheStampWithinAMicrosecond) {
+  EXPECT_EQ(pose_stamp_ns(-594, 0), 0);
+  EXPECT_EQ(pose_stamp_ns(1000, 0), 0);
+  EXPECT_EQ(pose_stamp_ns(1001, 0), 1001);
+  EXPECT_EQ(pose_stamp_ns(-1001, 0), -1001);
+  EXPECT_EQ(pose_stamp_ns(std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()),
+            std::numeric_limits<std::int64_t>::max());
+}
+
 TEST(AzimuthTimesTest, ClockwiseAndCounterClockwise) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<Eigen::Vector3f> points{{1, 0, 0},      {0, 2, 1},       {0, -3, 0},

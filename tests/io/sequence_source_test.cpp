@@ -58,7 +58,7 @@ TEST(SequenceSourceTest, WithoutStampsTheRateIsAssumed) {
   options.assumed_rate_hz = 20;
   const auto source = open_scan_source(folder.path(), options);
   EXPECT_TRUE(source->info().stamps_assumed);
-  EXPECT_TRUE(has_warning(source->info(), "20 sweeps a second are assumed"));
+  EXPECT_TRUE(has_warning(source->info(), "no timestamps found; assuming 20 Hz (change with --rate)"));
   source->next();
   EXPECT_EQ(source->next()->stamp_ns, 50'000'000);
 }

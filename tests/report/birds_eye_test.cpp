@@ -52,6 +52,18 @@ std::uint8_t pixel_at(const BirdsEyeMap& map, double x, double y) {
   return map.image.pixels.at(static_cast<std::size_t>(row * map.image.width + column));
 }
 
+/// A flat ground of 60 m × 60 m, a point a metre, with a post of 2 m in its middle.
+std::vector<Eigen::Vector3f> sparse_field() {
+  std::vector<Eigen::Vector3f> points;
+  for (int x = 0; x <= 60; ++x) {
+    for (int y = 0; y <= 60; ++y) {
+      points.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0F);
+    }
+  }
+  points.emplace_back(30.0F, 30.0F, 2.0F);
+  return points;
+}
+
 TEST(Base64, KnownVectors) {  // RFC 4648, section 10
   EXPECT_EQ(base64(bytes_of("")), "");
   EXPECT_EQ(base64(bytes_of("f")), "Zg==");
@@ -124,6 +136,21 @@ TEST(BirdsEye, NothingToDraw) {
   EXPECT_FALSE(draw_birds_eye({}, {}).has_value());
   EXPECT_FALSE(draw_birds_eye({Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN())}, {}).has_value());
   EXPECT_TRUE(draw_birds_eye({Eigen::Vector3f(1, 2, 3)}, {}).has_value());
+}
+
+TEST(BirdsEye, AFewPointsBelowTheGroundDoNotRaiseWhatIsAround) {
+  const std::vector<SE3> poses(1, SE3::Identity());
+  std::vector<Eigen::Vector3f> points = sparse_field();
+  const auto clean = draw_birds_eye(points, poses);
+  for (int i = 0; i < 6; ++i) points.emplace_back(31.0F, 32.0F, -15.0F);  // a mirrored wall
+  const auto mirrored = draw_birds_eye(points, poses);
+  ASSERT_TRUE(clean && mirrored);
+  // Ground and post beside the mirrored points.
+  for (const auto& [x, y] : {std::pair(26.0, 33.0), std::pair(30.0, 30.0), std::pair(38.0, 38.0)}) {
+    const int before = pixel_at(*clean, x, y);
+    EXPECT_GT(before, 0);
+    EXPECT_EQ(pixel_at(*mirrored, x, y), before) << x << ' ' << y;
+  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // The server as a browser meets it, and as somebody who means harm does.
+#include <algorithm>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -12,7 +13,9 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -51,6 +54,7 @@ class Server {
   unsigned short port() const { return server_.endpoint().port(); }
   std::string host() const { return "127.0.0.1:" + std::to_string(port()); }
   Hub& hub() { return hub_; }
+  std::size_t pauses() const { return server_.pauses(); }
 
   void add(std::size_t sweeps, std::size_t points = 100) {
     asio::post(io_, [this, sweeps, points] {
@@ -172,6 +176,47 @@ Bytes ask_sweep(std::uint32_t number) {
   Bytes message = {1, 1, 0, 0, 0, 0, 0, 0};
   std::memcpy(message.data() + 4, &number, 4);
   return message;
+}
+
+/// Takes every file descriptor that this process may still have.
+class NoDescriptors {
+ public:
+  NoDescriptors() {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    rlimit few = before_;
+    few.rlim_cur = std::min<rlim_t>(few.rlim_cur, 256);
+    setrlimit(RLIMIT_NOFILE, &few);
+    for (int taken = dup(0); taken >= 0; taken = dup(0)) taken_.push_back(taken);
+  }
+  ~NoDescriptors() {
+    for (const int taken : taken_) close(taken);
+    setrlimit(RLIMIT_NOFILE, &before_);
+  }
+  NoDescriptors(const NoDescriptors&) = delete;
+  NoDescriptors& operator=(const NoDescriptors&) = delete;
+
+ private:
+  rlimit before_{};
+  std::vector<int> taken_;
+};
+
+TEST(ViewServer, WithoutFileDescriptorsItWaitsAndThenGoesOn) {
+  const Server server;
+  asio::io_context io;
+  tcp::socket socket(io, tcp::v4());  // while there are some
+  {
+    const NoDescriptors none;
+    const auto begin = std::chrono::steady_clock::now();
+    socket.connect({asio::ip::make_address("127.0.0.1"), server.port()});
+    while (server.pauses() < 3) std::this_thread::sleep_for(10ms);
+    const auto most = (std::chrono::steady_clock::now() - begin) / kAcceptPause + 1;
+    EXPECT_LE(server.pauses(), static_cast<std::size_t>(most));  // it does not spin
+  }
+  asio::write(socket, asio::buffer(get("/nothing", server.host())));
+  boost::system::error_code error;
+  std::string text;
+  asio::read(socket, asio::dynamic_buffer(text), error);
+  EXPECT_NE(text.find("404"), std::string::npos) << text;
 }
 
 TEST(ViewServer, APageThatComesLateGetsEverything) {

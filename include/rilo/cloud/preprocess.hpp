@@ -21,7 +21,8 @@ struct PreparedSweep {
   TimedCloud map_cloud;           ///< one point per map voxel, the mean of its points
   TimedCloud source;              ///< S, one point per source voxel, the mean of its points
   BeamSample beam_sample;         ///< some of the points as measured; empty unless beams are tracked
-  double scene_range_m = 0;       ///< median range of S, smoothed over the sweeps: how large the place is
+  double median_range_m = 0;      ///< of S
+  double scene_range_m = 0;       ///< the same, smoothed over the sweeps: how large the place is
 };
 
 /// Range crop, NaN removal, time normalisation and downsampling. Keeps its buffers from sweep to sweep.

@@ -33,6 +33,7 @@ struct BenchSequence {
   std::optional<PointTimes> point_times;
   std::optional<double> elevation_correction_deg;
   std::vector<BenchPeer> peers;
+  std::string group;  ///< of sequences that are summed up together, "tuning" say; empty: none
 };
 
 /// One way to run them.
@@ -52,7 +53,12 @@ struct BenchPlan {
   std::size_t repeats = 1;                         ///< of each configuration on each sequence
   bool skip_missing = false;                       ///< sequences whose data are not there are left out
   PaperTables tables = PaperTables::kNone;
+  std::vector<BenchPeer> peers;        ///< of every sequence: the file with {sequence} for its name
+  std::filesystem::path peer_figures;  ///< CSV of figures of peers; empty: none
 };
+
+/// Gives every sequence those of `plan.peers` that it has not of its own.
+void give_peers(BenchPlan& plan);
 
 /// Reads a plan; docs/bench.md describes the file. Relative paths of sequences count from `root`, or from the file's
 /// folder when that is empty; those of configurations always from the file's folder. Configurations are loaded at once,

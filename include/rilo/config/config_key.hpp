@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "rilo/odometry/odometry_keys.hpp"
 
 namespace rilo {
 
@@ -29,12 +29,7 @@ class ConfigKey {
   struct Boolean {
     bool* member;
   };
-  /// A member of an enum type: the words in order, and access by their place.
-  struct Choice {
-    std::vector<std::string> words;
-    std::function<std::size_t()> get;
-    std::function<void(std::size_t)> set;
-  };
+  using Choice = KeyChoice;
   using Binding = std::variant<Real, Integer, Boolean, Choice>;
 
   ConfigKey(std::string name, std::string unit, std::string meaning, Binding binding)
@@ -73,26 +68,19 @@ struct ConfigSection {
 };
 
 /// All keys in the order of the file.
-class ConfigKeys {
+class ConfigKeys : public KeyVisitor {
  public:
   ConfigKeys() : sections_(1) {}
 
-  /// The keys that follow are "NAME.…".
-  void section(std::string name, std::string meaning) {
-    sections_.push_back({std::move(name), std::move(meaning), {}});
+  void section(std::string_view name, std::string_view meaning) override {
+    sections_.push_back({std::string(name), std::string(meaning), {}});
   }
-
-  void real(std::string_view name, double& member, double least, double most, std::string unit, std::string meaning);
-  void integer(std::string_view name, int& member, int least, int most, std::string unit, std::string meaning);
-  void boolean(std::string_view name, bool& member, std::string meaning);
-
-  template <typename Enum>
-  struct Word {
-    std::string text;
-    Enum value;
-  };
-  template <typename Enum>
-  void choice(std::string_view name, Enum& member, std::vector<Word<Enum>> words, std::string meaning);
+  void real(std::string_view name, double& member, double least, double most, std::string_view unit,
+            std::string_view meaning) override;
+  void integer(std::string_view name, int& member, int least, int most, std::string_view unit,
+               std::string_view meaning) override;
+  void boolean(std::string_view name, bool& member, std::string_view meaning) override;
+  void choice_of(std::string_view name, KeyChoice choice, std::string_view meaning) override;
 
   const std::vector<ConfigSection>& sections() const { return sections_; }
 
@@ -100,30 +88,14 @@ class ConfigKeys {
   const ConfigKey* find(std::string_view name) const;
   bool has_section(std::string_view name) const;
 
-  /// The known name (of a key or a section) that looks most like `name`.
+  /// The known name that looks most like `name`: of the keys of its section when that is known, else of all keys and
+  /// sections. Several joined by " or " when they are equally near.
   std::string nearest(std::string_view name) const;
 
  private:
-  void add(std::string_view name, std::string unit, std::string meaning, ConfigKey::Binding binding);
+  void add(std::string_view name, std::string_view unit, std::string_view meaning, ConfigKey::Binding binding);
 
   std::vector<ConfigSection> sections_;
 };
-
-template <typename Enum>
-void ConfigKeys::choice(std::string_view name, Enum& member, std::vector<Word<Enum>> words, std::string meaning) {
-  ConfigKey::Choice choice;
-  std::vector<Enum> values;
-  for (const Word<Enum>& word : words) {
-    choice.words.push_back(word.text);
-    values.push_back(word.value);
-  }
-  choice.get = [&member, values] {
-    std::size_t place = 0;
-    while (place + 1 < values.size() && values[place] != member) ++place;
-    return place;
-  };
-  choice.set = [&member, values](std::size_t place) { member = values.at(place); };
-  add(name, "", std::move(meaning), std::move(choice));
-}
 
 }  // namespace rilo

@@ -12,9 +12,12 @@ struct VoxelIndex {
   int x = 0;
   int y = 0;
   int z = 0;
+
+  bool operator==(const VoxelIndex&) const = default;
 };
 
-/// Voxel that holds `p`, with `inverse_size` = 1 / voxel size. Coordinates must be finite and within ±2^20 voxels.
+/// Voxel that holds `p`, with `inverse_size` = 1 / voxel size. Coordinates must be finite and within ±2^31 voxels
+/// (21 000 km with 0.01 m voxels).
 template <typename Derived>
 inline VoxelIndex voxel_of(const Eigen::MatrixBase<Derived>& p, double inverse_size) {
   // floor by truncation: std::floor is a library call without SSE4.1, and this is the hottest line of the downsampling.
@@ -26,20 +29,22 @@ inline VoxelIndex voxel_of(const Eigen::MatrixBase<Derived>& p, double inverse_s
           floor_int(static_cast<double>(p.z()) * inverse_size)};
 }
 
-/// Unique key of a voxel: 21 bits an axis. With 0.25 m voxels that is ±262 km.
+/// Key of a voxel: 21 bits an axis, so that it repeats every 2^21 voxels: 21 km with the smallest voxel of the map,
+/// 0.01 m. Unique among voxels that lie within 2^20 voxels of one place, however far from the origin that is.
 inline std::uint64_t voxel_key(const VoxelIndex& v) {
   constexpr std::uint64_t kMask = (1U << 21U) - 1U;
   const auto pack = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) & kMask; };
   return pack(v.x) | (pack(v.y) << 21U) | (pack(v.z) << 42U);
 }
 
-/// Voxel of a key of voxel_key().
-inline VoxelIndex voxel_of_key(std::uint64_t key) {
-  // Up against the sign bit, then back: the arithmetic shift brings the sign along.
-  const auto unpack = [key](unsigned int shift) {
-    return static_cast<int>(static_cast<std::int64_t>(key << (43U - shift)) >> 43);
+/// Of the voxels that have this key the one nearest to `place`.
+inline VoxelIndex voxel_of_key(std::uint64_t key, const VoxelIndex& place) {
+  // From `place` the shortest way round: up against the sign bit, then back, as the arithmetic shift brings the sign.
+  const auto unpack = [key](unsigned int shift, int from) {
+    const std::uint64_t way = (key >> shift) - static_cast<std::uint64_t>(static_cast<std::int64_t>(from));
+    return from + static_cast<int>(static_cast<std::int64_t>(way << 43U) >> 43);
   };
-  return {unpack(0U), unpack(21U), unpack(42U)};
+  return {unpack(0U, place.x), unpack(21U, place.y), unpack(42U, place.z)};
 }
 
 /// Mixes a key so that neighbouring voxels spread over the table (multiplicative hashing, upper bits are the good

@@ -28,9 +28,11 @@ struct GroundTruth {
 };
 
 /// Looks for ground truth in the data folder: poses_{start,mid,end}.txt of a drive simulator, else poses_velo.txt
-/// (LiDAR frame), poses.txt (camera frame when calib.txt has `Tr`, else LiDAR frame), else KITTI odometry's
+/// (LiDAR frame), poses.txt (camera frame when calib.txt has `Tr`, else LiDAR frame), else oxts/data of a KITTI raw
+/// drive with calib_imu_to_velo.txt in it or above it (LiDAR frame, the first pose is the identity), else KITTI
+/// odometry's
 /// ../../poses/NN.txt (camera frame). Nothing when there is none.
-/// @throws IoError when a file is malformed, or is in the camera frame and there is no `Tr`.
+/// @throws IoError when a file is malformed, or is in another frame and there is no calibration.
 std::optional<GroundTruth> read_ground_truth(const std::filesystem::path& data, TruthInstant instant);
 
 }  // namespace rilo

@@ -58,4 +58,9 @@ class PointTimeDecoder {
 /// clockwise, seen from above, else +; within ± period / 2. NaN points get 0.
 std::vector<float> azimuth_times(const std::vector<Eigen::Vector3f>& points, double period_s, SpinDirection direction);
 
+/// The stamp of a pose at the middle of a sweep: `middle_ns`, or the sweep's own stamp when they are at most a
+/// microsecond apart. The azimuth times of measured points are not quite symmetric about the stamp; without this the
+/// first pose of a recording that begins at 0 would have a negative stamp.
+std::int64_t pose_stamp_ns(std::int64_t middle_ns, std::int64_t sweep_stamp_ns);
+
 }  // namespace rilo

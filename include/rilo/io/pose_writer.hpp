@@ -13,7 +13,10 @@
 
 namespace rilo {
 
-/// KITTI form (12 numbers a line, 13 significant digits), LiDAR frame.
+/// One pose in KITTI form: 12 numbers of 13 significant digits and the line break.
+std::string kitti_line(const SE3& pose);
+
+/// KITTI form (12 numbers per line, 13 significant digits), LiDAR frame.
 void write_kitti_poses(const std::filesystem::path& file, const Trajectory& trajectory);
 void write_kitti_poses(const std::filesystem::path& file, const std::vector<SE3>& poses);
 

@@ -55,8 +55,8 @@ std::string_view to_string(OnBadSweep value);
 std::optional<OnBadSweep> parse_on_bad_sweep(std::string_view text);
 
 struct SourceOptions {
-  std::string topic;  ///< of a recording; empty: the only PointCloud2 topic
-  /// What a recording of packets needs: an Ouster's metadata (JSON; empty: the one beside the recording), or the
+  std::string topic;  ///< of a recording; empty: the only topic of clouds, or else of packets
+  /// What a recording of packets needs: an Ouster's metadata (JSON; empty: the one in or beside the recording), or the
   /// calibration of a Velodyne HDL-64E (YAML of the ROS driver velodyne_pointcloud).
   std::string sensor_file;
   /// Columns of a .bin record, one float32 each: x, y, z (needed), intensity, time, ring; `_` is ignored.

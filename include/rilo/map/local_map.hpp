@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -36,24 +37,22 @@ class LocalMap {
   /// Surface element at `p` (odometry frame): the finest level with a plane there. False when there is none.
   bool find(const Eigen::Vector3d& p, MapPlane& plane) const;
 
+  /// What a look-up of many points looks for.
+  enum class Wanted { kPlanes, kPlanesAndScatter };
+
   /// find() for many points: calls use(k, p, spot) with p = point_at(k) (odometry frame) for those of k = first …
-  /// last − 1, in order, where there is a surface element. A few look-ups are under way at any time: one after the
-  /// other they would wait for the memory most of the time.
-  template <typename PointAt, typename Use>
+  /// last − 1, in order, where there is a surface element (or, if wanted, points that are none). A few look-ups are
+  /// under way at any time: one after the other they would wait for the memory most of the time.
+  template <Wanted What = Wanted::kPlanes, typename PointAt, typename Use>
   void visit(std::size_t first, std::size_t last, const PointAt& point_at, const Use& use) const {
-    constexpr std::size_t kBatch = 16;
     std::array<Eigen::Vector3d, kBatch> points;
     std::array<PlaneSpot, kBatch> spots;
     for (std::size_t begin = first; begin < last; begin += kBatch) {
       const std::size_t n = std::min(kBatch, last - begin);
       for (std::size_t i = 0; i < n; ++i) {
         points[i] = point_at(begin + i);
-        grids_[finest_].prefetch(points[i]);
       }
-      for (std::size_t i = 0; i < n; ++i) {
-        spots[i] = PlaneSpot{};
-        locate(points[i], spots[i]);
-      }
+      locate({points.data(), n}, What, spots.data());
       for (std::size_t i = 0; i < n; ++i) {
         if (spots[i].grid != nullptr) {
           use(begin + i, points[i], spots[i]);
@@ -61,6 +60,9 @@ class LocalMap {
       }
     }
   }
+
+  /// The finest voxel that a look-up at `p` looks into.
+  VoxelIndex finest_voxel(const Eigen::Vector3d& p) const { return grids_[finest_].index_of(p); }
 
   bool empty() const { return grids_.back().size() == 0; }
   /// Voxels of all levels.
@@ -72,14 +74,16 @@ class LocalMap {
   void clear();
 
  private:
-  bool locate(const Eigen::Vector3d& p, PlaneSpot& spot) const;
+  static constexpr std::size_t kBatch = 16;  // look-ups that are under way together
+
+  /// The finest plane at each of at most kBatch points, or, where there is none and it is wanted, the finest points
+  /// that are not a plane; an empty spot where there is neither.
+  void locate(std::span<const Eigen::Vector3d> points, Wanted wanted, PlaneSpot* spots) const;
 
   LocalMapConfig config_;
   std::vector<PlaneGrid> grids_;  // finest first
   std::size_t finest_ = 0;
-  // Of the points being inserted: in the odometry frame, and how they move with the elevation angles.
-  std::vector<Eigen::Vector3d> world_;
-  std::vector<Eigen::Vector3f> levers_;
+  std::vector<InsertedPoint> inserted_;  // the points being inserted
 };
 
 }  // namespace rilo

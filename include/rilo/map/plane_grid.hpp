@@ -6,17 +6,27 @@
 
 #include <Eigen/Core>
 
+#include "rilo/geometry/symmetric_eigen.hpp"
 #include "rilo/geometry/voxel_key.hpp"
 #include "rilo/map/rigid_lever.hpp"
 
 namespace rilo {
 
-/// When a voxel's points count as a plane.
+/// When a voxel's points count as a plane, and what they are known to be off by.
 struct PlaneCriteria {
   int min_points = 6;
   int max_points = 100;
   double max_planarity = 0.1;
   double min_extent_m = 0.05;
+  double range_noise_m = 0.0;    ///< standard deviation of a point along its ray
+  double angle_noise_rad = 0.0;  ///< standard deviation of its direction
+};
+
+/// A point that goes into the map.
+struct InsertedPoint {
+  Eigen::Vector3d place;                                      ///< odometry frame (m)
+  Eigen::Vector3f ray = Eigen::Vector3f::Zero();              ///< from the sensor to the point, odometry frame (m)
+  Eigen::Vector3f elevation_lever = Eigen::Vector3f::Zero();  ///< derivative by the elevation angles (m/rad)
 };
 
 /// A surface element of the map, odometry frame.
@@ -24,6 +34,16 @@ struct MapPlane {
   Eigen::Vector3d point;   ///< centroid (m)
   Eigen::Vector3d normal;  ///< unit
   float thickness_m = 0;   ///< standard deviation along the normal
+  float weight = 1;        ///< 0 … 1: squared reliability of the normal
+};
+
+/// The points of a voxel that are no surface, odometry frame: a Gaussian.
+struct MapScatter {
+  Eigen::Vector3d mean;       ///< m
+  Eigen::Matrix3d axes;       ///< columns: unit, principal axes
+  Eigen::Vector3d variances;  ///< along them (m²)
+  Eigen::Vector3d bounded;    ///< 0 … 1: how much of each is the points' own extent; 0: they fill the voxel and go on
+  double weight = 1;          ///< as that of a plane
 };
 
 class PlaneGrid;
@@ -31,23 +51,34 @@ class PlaneGrid;
 /// Where a plane was found. Finding and reading are apart, so that many can be found before the first is read: the
 /// memory then answers to all at once. Valid until the grid changes.
 struct PlaneSpot {
-  const PlaneGrid* grid = nullptr;  ///< null: no plane there
+  const PlaneGrid* grid = nullptr;  ///< null: nothing there
   std::uint32_t voxel = 0;
   VoxelIndex index;
+  bool scatter = false;  ///< not a plane: read it with scatter_at()
 };
 
 /// Voxels in a flat open-addressing hash; the voxels themselves lie in a pool. A voxel's plane is fitted on insertion,
 /// when the number of its points has grown by half since the last fit, so that a look-up only reads. A look-up that
 /// finds nothing touches one cache line, one that finds a plane two.
+///
+/// All returns of one beam lie on its cone, and points of a single cone scatter along the ray by range noise and by the
+/// roughness of the surface: the plane through them contains the ray, whatever the surface. So the range noise is taken
+/// off the scatter before the fit, and the reliability λ of a normal is the product of two ratios: D² / (D² + σ²), the
+/// reliability ratio of a regression with errors in the variables (Fuller 1987), D the least standard deviation across
+/// the rays, σ = range · angle_noise_rad; and (n·r)² of the fit over that of the regression of range on directions, the
+/// two ends between which the normal lies.
 class PlaneGrid {
  public:
   PlaneGrid(double voxel_m, const PlaneCriteria& criteria);
 
-  /// Adds a point. `elevation_lever`: how it moves with the sensor's elevation angles (m/rad).
-  void insert(const Eigen::Vector3d& p, const Eigen::Vector3f& elevation_lever = Eigen::Vector3f::Zero());
+  /// Adds a point. A full voxel (criteria.max_points) takes no more once it has a plane, so that old surfaces do not
+  /// creep with new poses; without one it forgets half of its points and goes on.
+  void insert(const InsertedPoint& point);
+  /// Adds a point of unknown ray: it counts as free of noise.
+  void insert(const Eigen::Vector3d& p) { insert(InsertedPoint{p}); }
 
-  /// Adds points in their order; as many levers as points.
-  void insert(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3f>& elevation_levers);
+  /// Adds points in their order.
+  void insert(const std::vector<InsertedPoint>& points);
 
   /// Moves all points as if the sensor's elevation angles had been larger by `angle_rad`, a small angle, seen from a
   /// sensor that moves with them.
@@ -65,10 +96,22 @@ class PlaneGrid {
   /// ... and what it is.
   MapPlane plane_at(const PlaneSpot& spot) const;
 
-  /// Asks for the memory that locate(p) will read first.
-  void prefetch(const Eigen::Vector3d& p) const {
-    __builtin_prefetch(&slots_[mix_key(voxel_key(voxel_of(p, inverse_))) & (slots_.size() - 1)]);
+  /// The points there, which are not a plane but spread in all directions.
+  MapScatter scatter_at(const PlaneSpot& spot) const;
+
+  /// What the points of a voxel are.
+  enum class Kind : std::uint8_t { kNone, kPlane, kScatter };
+
+  /// The steps of locate(), for look-ups of many points that take turns waiting for the memory: the voxel `index`
+  /// alone, ...
+  Kind look_up(const VoxelIndex& index, PlaneSpot& spot) const;
+  /// ... the one behind the face near `p`, which lies in `index`; false when `p` is not near a face, ...
+  bool behind_face(const Eigen::Vector3d& p, const VoxelIndex& index, VoxelIndex& behind) const;
+  /// ... and the memory that look_up(index) reads first.
+  void prefetch(const VoxelIndex& index) const {
+    __builtin_prefetch(&slots_[mix_key(voxel_key(index)) & (slots_.size() - 1)]);
   }
+  VoxelIndex index_of(const Eigen::Vector3d& p) const { return voxel_of(p, inverse_); }
 
   /// Covariance of the normal there (rad²), from the scatter of the points about the plane.
   Eigen::Matrix3d normal_covariance_at(const PlaneSpot& spot) const;
@@ -83,7 +126,8 @@ class PlaneGrid {
   bool occupied(const Eigen::Vector3d& p) const;
 
   /// Examines a slice of the voxels and drops those farther than `radius_m` from `centre`. A full round takes
-  /// kEvictionRounds calls.
+  /// kEvictionRounds calls. All voxels must lie within 2^20 voxels of `centre`, until then of the origin: farther apart
+  /// they would be taken for one another (voxel_key).
   void evict(const Eigen::Vector3d& centre, double radius_m);
 
   std::size_t size() const { return used_; }
@@ -96,50 +140,68 @@ class PlaneGrid {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   static constexpr std::size_t kEvictionRounds = 32;
 
-  /// What insertion works on: a cache line.
-  struct alignas(64) Voxel {
+  enum class Fit : std::uint8_t { kNone, kPlane, kNoPlane };
+  /// What insertion works on.
+  struct alignas(16) Voxel {
     std::uint64_t key = 0;
     std::int32_t count = 0;  // 0: the place in the pool is not in use
     std::int32_t fitted_count = 0;
+    Fit fit = Fit::kNone;
     // Moments about the voxel's centre, in m: single precision is exact enough because the lever is short.
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     Eigen::Matrix<float, 6, 1> squares = Eigen::Matrix<float, 6, 1>::Zero();  // xx xy xz yy yz zz
     Eigen::Vector3f lever_sum = Eigen::Vector3f::Zero();                      // of the points' elevation levers
+    Eigen::Vector3f ray_sum = Eigen::Vector3f::Zero();                        // of their rays
   };
   /// What look-ups read, at the same place in a pool of its own: half a cache line.
   struct alignas(32) Plane {
     Eigen::Vector3f mean = Eigen::Vector3f::Zero();  // about the voxel's centre, at the last fit
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     float thickness = 0.0F;
+    float weight = 0.0F;
   };
-  /// How well the normal is known.
-  struct Tilt {
+  /// How the points extend across the normal.
+  struct Extent {
     Eigen::Vector3f middle = Eigen::Vector3f::Zero();  // unit, in the plane: where the points extend less
-    float middle_variance = 0.0F;                      // rad², of the normal towards it ...
-    float large_variance = 0.0F;                       // ... and towards the other direction in the plane
+    float middle_variance = 0.0F;                      // m², along it ...
+    float large_variance = 0.0F;                       // ... and along the other direction in the plane
+    float error_variance = 0.0F;                       // m², of the fitted plane along its normal, per point
   };
   struct Slot {
     std::uint64_t key = 0;
     std::uint32_t voxel = kNone;
-    std::uint32_t planar = 0;  // whether the voxel has a plane
+    Kind kind = Kind::kNone;
+    bool full = false;  // has a plane and takes no more points
   };
 
-  Eigen::Vector3d centre_of(const VoxelIndex& index) const;
-  std::size_t slot_of(std::uint64_t key) const;
-  bool plane_in(const VoxelIndex& index, PlaneSpot& spot) const;
-  std::uint32_t find_or_add(std::uint64_t key);
-  void add(std::uint32_t id, const Eigen::Vector3d& p, const Eigen::Vector3f& elevation_lever);
+  Eigen::Vector3d centre_of(const VoxelIndex& index) const {
+    return voxel_m_ * Eigen::Vector3d(index.x + 0.5, index.y + 0.5, index.z + 0.5);
+  }
+  Eigen::Vector3d centre_of(const Voxel& voxel) const;
+  /// The slot that holds `key`, or the free one that ends its probe sequence.
+  std::size_t slot_of(std::uint64_t key) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = mix_key(key) & mask;
+    while (slots_[slot].voxel != kNone && slots_[slot].key != key) {
+      slot = (slot + 1) & mask;
+    }
+    return slot;
+  }
+  Slot& find_or_add(std::uint64_t key);
+  void add(std::uint32_t id, const InsertedPoint& point);
   void erase(std::uint32_t voxel);
   void grow();
   void fit(std::uint32_t id);
+  void keep_extents(std::uint32_t id, const Eigen::Matrix3d& covariance, const SymmetricEigen3& eigen);
 
   double voxel_m_;
   double inverse_;
   PlaneCriteria criteria_;
+  VoxelIndex place_;  // of the last eviction: keys mean the voxels around it
   std::vector<Slot> slots_;
   std::vector<Voxel> pool_;
-  std::vector<Plane> planes_;  // of the voxels of pool_
-  std::vector<Tilt> tilts_;    // of those planes
+  std::vector<Plane> planes_;    // of the voxels of pool_
+  std::vector<Extent> extents_;  // of the same
   std::vector<std::uint32_t> free_;
   std::vector<std::uint32_t> touched_;
   std::size_t used_ = 0;

@@ -10,13 +10,19 @@ namespace rilo {
 /// Evidence about one registration.
 struct Evidence {
   std::size_t source_points = 0;
-  double score = 0;        ///< map score at the registered pose
-  double usual_score = 0;  ///< of the sweeps before; 0: unknown
-  bool was_lost = false;   ///< the sweep before was lost
-  bool young_map = false;  ///< a few sweeps only have gone into the map: it explains less than usual
+  double score = 0;             ///< map score at the registered pose
+  double usual_score = 0;       ///< of the sweeps before; 0: unknown
+  bool was_lost = false;        ///< the sweep before was lost
+  bool young_map = false;       ///< a few sweeps only have gone into the map: it explains less than usual
+  bool shrunk = false;          ///< the place is much smaller than a sweep ago: something covers the sensor
+  bool possible_motion = true;  ///< a sensor can have moved to the pose
+  bool second_sweep = false;    ///< of the map: no usual score says whether it lies far from the first one
 };
 
 /// Status of a registered sweep.
 OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
+
+/// Whether the sweep fits the map well enough for its pose to be right, whatever the motion to it.
+bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
 
 }  // namespace rilo

@@ -49,22 +49,38 @@ class InitialPoseStage {
   /// Chooses the initial pose of a sweep.
   /// @param source the sweep: points (m, sensor frame) with their times.
   /// @param predicted T_pred and the velocity during the sweep.
-  /// @param previous T_{i−1}.
-  /// @param dt_s time since `previous`.
+  /// @param previous T_{i−1}, the pose of the last sweep that was accepted.
+  /// @param twist_at velocity of the sweep, were its pose the one given.
   /// @param map the local map, which judges the candidates.
+  /// @param single the map holds one sweep, compensated for predicted.twist: only a sweep compensated for the same
+  /// looks like it, whatever motion its candidate implies.
   /// @param in_doubt the prediction must not be trusted whatever its score (start, after a loss).
   /// @param time_left asked before each start of the coarse stage whether there is time for it; empty: always.
-  InitialPose choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous, double dt_s,
-                     const LocalMap& map, bool in_doubt, const std::function<bool()>& time_left = {});
+  InitialPose choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous,
+                     const std::function<Vector6d(const SE3&)>& twist_at, const LocalMap& map, bool single,
+                     bool in_doubt, const std::function<bool()>& time_left = {});
 
   /// Map score of a registered sweep; the cloud becomes the next target.
   double score(const TimedCloud& source, const MotionState& state, const LocalMap& map);
 
+  /// Whether a registered sweep with that score and residuals fits so much worse than usual that it may have been taken
+  /// at another time than its stamp says.
+  bool suspicious(double score, double residual_rms_m) const;
+
+  /// Where on the path of `predicted` a sweep may have been taken, the best places first (at most three): the maxima of
+  /// its score on `map` from two periods `dt_s` back to twelve on.
+  std::vector<SE3> places_on_path(const TimedCloud& source, const MotionState& predicted, double dt_s,
+                                  const LocalMap& map);
+
   /// Lets a sweep's score into the usual score: slowly where it raises the alarm. A pose that slides away bit by bit
   /// must not take the measure along, and a place that shows less must become usual in time.
-  void learn(double score);
+  void learn(double score, double residual_rms_m);
 
-  double usual_score() const { return usual_score_; }
+  /// A map begins with a sweep: its cloud becomes the target, its score the least that is expected.
+  void begin(const TimedCloud& source, const MotionState& state, const LocalMap& map);
+
+  /// The usual score, or, while it is not known, what the first sweep of the map scores on itself.
+  double expected_score() const { return usual_score_ > 0.0 ? usual_score_ : own_score_; }
 
   /// Keeps the motion-compensated source of a sweep as target of the next coarse registration: the distribution that
   /// was made of it as a source where `twist` is about the velocity that it was compensated for then.
@@ -72,16 +88,13 @@ class InitialPoseStage {
 
   void reset();
 
-  /// Forgets the last sweep's cloud, not the usual score: on a new map.
-  void forget_target();
-
  private:
   DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points);
   /// Whether a score is not far below the usual one.
   bool explains(double score) const;
-  /// Further starts for the coarse stage: the best poses of a search around the last one, on the sweep as compensated
+  /// Further starts for the coarse stage: the best poses of a search around `centre`, on the sweep as compensated
   /// last.
-  std::vector<SE3> restarts(const SE3& previous, const LocalMap& map) const;
+  std::vector<SE3> restarts(const SE3& centre, const LocalMap& map) const;
 
   InitialPoseConfig config_;
   CoarseRegistrationConfig coarse_;
@@ -93,6 +106,8 @@ class InitialPoseStage {
   std::optional<DistributionCloud> moving_;
   Vector6d moving_twist_ = Vector6d::Zero();
   double usual_score_ = 0;
+  double usual_rms_m_ = 0;  // of the residuals of registered sweeps
+  double own_score_ = 0;    // of the first sweep on the map of itself: what a sweep at the right place can reach
 };
 
 }  // namespace rilo

@@ -6,6 +6,7 @@
 #include "rilo/odometry/adaptive_threshold_config.hpp"
 #include "rilo/odometry/health_config.hpp"
 #include "rilo/odometry/initial_pose_config.hpp"
+#include "rilo/odometry/motion_bounds_config.hpp"
 #include "rilo/odometry/motion_prediction_config.hpp"
 #include "rilo/odometry/motion_prior_config.hpp"
 #include "rilo/odometry/time_budget_config.hpp"
@@ -30,10 +31,15 @@ struct OdometryConfig {
   ElevationOffsetConfig elevation;
   BeamCalibrationConfig beams;
   HealthConfig health;
+  MotionBoundsConfig bounds;
   TimeBudgetConfig budget;
 };
 
+/// Every key is in its range (odometry_keys.hpp), and those that depend on one another agree.
 /// @throws std::invalid_argument naming the first value that is out of range, and the range.
 void validate(const OdometryConfig& config);
+
+/// The same configuration, if it is valid: for members that are built from it. @throws as validate.
+OdometryConfig validated(const OdometryConfig& config);
 
 }  // namespace rilo

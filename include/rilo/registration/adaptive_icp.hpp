@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rilo/cloud/timed_cloud.hpp"
@@ -26,29 +28,39 @@ struct MotionPrior {
   Matrix12d information = Matrix12d::Zero();  ///< zero: nothing is known
 };
 
+/// Why the registration ended.
+enum class IcpTermination : std::uint8_t {
+  kConverged,       ///< the last update was below the thresholds
+  kIterationLimit,  ///< it was not, after as many iterations as are allowed
+  kSingular,        ///< hardly any correspondence, or a system that says nothing
+};
+
 /// Result of the registration.
 struct IcpResult {
   MotionState state;
-  bool converged = false;
+  IcpTermination termination = IcpTermination::kIterationLimit;
   int iterations = 0;
+  bool frozen = false;  ///< points were held to what they had met, for it to converge
   std::size_t inliers = 0;
   double residual_rms_m = 0;
   Matrix6d lidar_information = Matrix6d::Zero();        ///< of the pose, sweep alone, same perturbation as MotionPrior
   Matrix12d sweep_information = Matrix12d::Zero();      ///< of pose and velocity, sweep alone, weak directions faded
   Matrix12d posterior_information = Matrix12d::Zero();  ///< the same and the prior's
   PoseDegeneracy degeneracy;
+
+  bool converged() const { return termination == IcpTermination::kConverged; }
 };
 
-/// The planes that the points of one source cloud were matched with in one state of the map, kept from one iteration to
-/// the next: the last ones move the sweep by millimetres and meet the same planes again.
+/// What the points of one source cloud meet in one state of the map, kept from one iteration to the next: a point that
+/// stays in its voxel, the finest one, stays with its plane.
 class PlaneMatches {
  public:
-  /// `rematch_m`: how far the sweep may move before its planes are looked up again; 0: not at all.
-  explicit PlaneMatches(double rematch_m) : rematch_m_(rematch_m) {}
-
-  /// linearise() below, on the planes kept where `state` is near enough to where they were looked up.
+  /// linearise() below, on what is kept of the same source and map.
   NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
                             const AdaptiveIcpConfig& config, std::size_t stride);
+
+  /// From now on every point stays with what it met last, wherever it goes.
+  void freeze() { frozen_ = true; }
 
   /// What errors of the normals alone add to the Hessian of the pose, on average: directions in which the Hessian is
   /// not larger are not observed, whatever its eigenvalues say.
@@ -56,22 +68,19 @@ class PlaneMatches {
 
  private:
   struct Match {
-    Eigen::Vector3d normal;
-    double distance = 0;  // of the plane from the origin along its normal (m)
-    bool found = false;
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+    float weight = 0.0F;
+    double distance_m = 0;  // of the plane from the origin along its normal
+    PlaneSpot spot;         // empty: the point meets nothing
+    VoxelIndex voxel;       // the finest one, that of the point when it was looked up
+    bool looked_up = false;
   };
-  /// Forgets the planes: those of `count` points, every stride-th, are to be looked up at `state`.
-  void begin(const TimedCloud& source, const MotionState& state, std::size_t stride, std::size_t count);
-  void measure(const TimedCloud& source);
-  bool near(const MotionState& state) const;
+  /// Finds what those of the points `first`, `first` + 1, … of the strided cloud meet that have left their voxel.
+  void look_up(const LocalMap& map, std::size_t first, std::span<const Eigen::Vector3d> world, std::size_t stride);
 
-  double rematch_m_;
-  std::vector<Match> matches_;  // of every stride-th point
-  std::size_t stride_ = 0;      // 0: none are kept
-  MotionState state_;           // at which they were looked up
+  std::vector<Match> matches_;  // of all points
+  bool frozen_ = false;
   Matrix6d normal_noise_ = Matrix6d::Zero();
-  double lever_m_ = 0;      // typical range of a point
-  double half_span_s_ = 0;  // largest offset of a point from the instant of the pose
 };
 
 /// Residuals and Jacobians of `source` against the planes of `map` at `state`, with the Cauchy weight of σ_th (eq.

@@ -9,14 +9,14 @@ struct AdaptiveIcpConfig {
   double gate = 3.0;          ///< residuals beyond gate · σ_th are no correspondences
   int max_iterations = 24;
   int coarse_stride = 4;                ///< every n-th point until it converges, then all points
-  double rematch_m = 0.005;             ///< planes are looked up again once the sweep has moved so far; 0: always
   double damping = 1e-9;                ///< λ, relative to the largest diagonal element
   double rotation_epsilon_rad = 1e-5;   ///< converged when an update turns less …
   double translation_epsilon_m = 1e-4;  ///< … and moves less
   bool refine_motion = true;            ///< estimate the velocity during the sweep together with the pose
   double noise_m = 0.02;                ///< least standard deviation of a residual
+  double scatter_noise_m = 0.01;        ///< σ of the weight σ² / (σ² + variance) of points that meet no plane
   double independent_share = 0.01;      ///< share of the residuals that count as independent in the information
-  double weak_direction = 0.001;        ///< relative eigenvalue at which half a direction is left to the prior; 0: off
+  double weak_direction = 0.004;        ///< relative eigenvalue at which half a direction is left to the prior; 0: off
 };
 
 }  // namespace rilo

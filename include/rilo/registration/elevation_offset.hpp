@@ -41,15 +41,18 @@ class ElevationOffsetEstimator {
   /// Angle added so far.
   double applied_rad() const { return applied_rad_; }
 
-  /// Moves the applied angle towards the estimate when that is certain; returns the change.
+  /// Follows the estimate from when it is certain to differ from nothing or from what was known beforehand; takes the
+  /// correction back when it is not known any more that there is an error. Returns the change of the applied angle.
   double advance();
 
   void reset() { *this = ElevationOffsetEstimator(config_); }
 
  private:
+  void decide();
+
   ElevationOffsetConfig config_;
   double applied_rad_ = 0;
-  bool certain_ = false;
+  bool following_ = false;
   std::size_t sweeps_ = 0;
   double information_ = 0;
   double weighted_offset_ = 0;

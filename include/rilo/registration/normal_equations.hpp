@@ -12,6 +12,19 @@ namespace rilo {
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 
+/// Lower triangle of Σ J Jᵀ over directions d with J = [(q × d)ᵀ dᵀ] and M = Σ d dᵀ.
+inline Matrix6d jacobian_moment(const Eigen::Vector3d& q, const Eigen::Matrix3d& M) {
+  Matrix6d h = Matrix6d::Zero();
+  for (int c = 0; c < 3; ++c) {
+    h.block<1, 3>(3 + c, 0) = q.cross(M.col(c)).transpose();
+    h.block<3, 1>(3, 3 + c) = M.col(c);
+  }
+  for (int c = 0; c < 3; ++c) {
+    h.block<3, 1>(0, c) = q.cross(h.block<3, 1>(3, c));
+  }
+  return h;
+}
+
 /// Sums of weighted residuals e with Jacobian [J, s J], s the offset (s) of the point from the pose's instant: the
 /// second block is the velocity. The three blocks of the Hessian share the products J Jᵀ, so that a velocity costs
 /// little more than none.
@@ -53,6 +66,27 @@ struct NormalEquations {
     weight += w;
     squared_error += w * e * e;
     ++count;
+  }
+
+  /// Adds residuals of one point along several directions at once: J = [(q × d)ᵀ dᵀ] for each direction d, with
+  /// M = Σ w d dᵀ, g = Σ w e d over them, `w` = Σ w, `we2` = Σ w e² and `n` how many there are.
+  void add(const Eigen::Vector3d& q, const Eigen::Matrix3d& M, const Eigen::Vector3d& g, double w, double we2,
+           std::size_t n, double s) {
+    const Matrix6d h = jacobian_moment(q, M);
+    Vector6d b;
+    b << q.cross(g), g;
+    for (int c = 0; c < 6; ++c) {
+      for (int r = c; r < 6; ++r) {
+        H0(r, c) += h(r, c);
+        H1(r, c) += s * h(r, c);
+        H2(r, c) += s * s * h(r, c);
+      }
+    }
+    b0 += b;
+    b1 += s * b;
+    weight += w;
+    squared_error += we2;
+    count += n;
   }
 
   NormalEquations& operator+=(const NormalEquations& other);

@@ -60,6 +60,9 @@ class Viewer {
   /// No sweep will come any more.
   void finish();
 
+  /// Why it ended early: nobody can see anything any more, and what is handed over is dropped. Empty: it goes on.
+  std::string failure() const;
+
   /// Pages that are connected now.
   std::size_t clients() const;
 

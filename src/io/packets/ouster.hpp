@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,6 +35,9 @@ struct OusterMetadata {
 /// The JSON that the sensor gives, of all its versions.
 /// @throws IoError naming the key.
 OusterMetadata read_ouster_metadata(const std::filesystem::path& file);
+/// The same from its text; `file` and `part` ("topic /ouster/metadata") are for messages.
+OusterMetadata parse_ouster_metadata(std::string_view text, const std::filesystem::path& file,
+                                     const std::string& part = {});
 
 /// Where the bytes of a packet lie.
 struct OusterLayout {

@@ -18,16 +18,16 @@ namespace {
 using nlohmann::json;
 constexpr std::size_t kLargestFile = std::size_t{1} << 22;
 
-class MetadataFile {
+class MetadataText {
  public:
-  explicit MetadataFile(const std::filesystem::path& file) : file_(file) {
-    const FileBytes bytes = read_file(file, kLargestFile);
-    root_ = json::parse(bytes.view(), nullptr, false);
-    if (!root_.is_object()) refuse("", "text that is no JSON object");
+  MetadataText(std::string_view text, std::filesystem::path file, std::string part)
+      : file_(std::move(file)), part_(std::move(part)), root_(json::parse(text, nullptr, false)) {
+    if (!root_.is_object()) refuse("", "text that is not a JSON object");
   }
 
   [[noreturn]] void refuse(const std::string& key, const std::string& found) const {
-    throw IoError({file_, key, found, "the metadata of an Ouster (get_metadata, or the file beside the recording)",
+    const std::string position = part_ + (part_.empty() || key.empty() ? "" : ", ") + key;
+    throw IoError({file_, position, found, "the metadata of an Ouster (get_metadata, or the file beside the recording)",
                    "Give the sensor's metadata with --sensor-file"});
   }
 
@@ -75,10 +75,11 @@ class MetadataFile {
 
  private:
   std::filesystem::path file_;
+  std::string part_;
   json root_;
 };
 
-OusterProfile profile_of(const MetadataFile& file) {
+OusterProfile profile_of(const MetadataText& file) {
   const std::string name = file.text("udp_profile_lidar");
   if (name.empty() || name == "LEGACY") return OusterProfile::kLegacy;
   if (name == "RNG15_RFL8_NIR8") return OusterProfile::kRng15;
@@ -90,7 +91,7 @@ OusterProfile profile_of(const MetadataFile& file) {
 }
 
 // "1024x10": columns a turn, turns a second.
-void read_mode(const MetadataFile& file, OusterMetadata& metadata) {
+void read_mode(const MetadataText& file, OusterMetadata& metadata) {
   const std::string mode = file.text("lidar_mode");
   unsigned columns = 0;
   unsigned rate = 0;
@@ -104,7 +105,7 @@ void read_mode(const MetadataFile& file, OusterMetadata& metadata) {
 }
 
 // The first and the last column that are sent; the window may lie across the end of the turn.
-void read_window(const MetadataFile& file, OusterMetadata& metadata) {
+void read_window(const MetadataText& file, OusterMetadata& metadata) {
   if (file.find("column_window") == nullptr) return;
   const std::vector<double> window = file.numbers("column_window");
   const auto columns = static_cast<double>(metadata.columns_per_frame);
@@ -116,7 +117,7 @@ void read_window(const MetadataFile& file, OusterMetadata& metadata) {
   metadata.columns_sent = static_cast<std::size_t>(sent > 0 ? sent : sent + columns);
 }
 
-void read_transform(const MetadataFile& file, OusterMetadata& metadata) {
+void read_transform(const MetadataText& file, OusterMetadata& metadata) {
   constexpr double kMillimetres = 1e-3;
   // Of every sensor so far: turned by 180°, 36.18 mm up.
   metadata.T_sensor_lidar.diagonal() << -1, -1, 1, 1;
@@ -137,8 +138,13 @@ std::vector<double> in_radians(std::vector<double> degrees) {
 
 }  // namespace
 
-OusterMetadata read_ouster_metadata(const std::filesystem::path& path) {
-  const MetadataFile file(path);
+OusterMetadata read_ouster_metadata(const std::filesystem::path& file) {
+  return parse_ouster_metadata(read_file(file, kLargestFile).view(), file);
+}
+
+OusterMetadata parse_ouster_metadata(std::string_view text, const std::filesystem::path& path,
+                                     const std::string& part) {
+  const MetadataText file(text, path, part);
   OusterMetadata metadata;
   metadata.product = file.text("prod_line");
   metadata.profile = profile_of(file);

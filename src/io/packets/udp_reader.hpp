@@ -11,34 +11,28 @@
 #include <string_view>
 #include <vector>
 
+#include "io/packets/packet_stream.hpp"
+
 struct pcap;
 
 namespace rilo::detail {
 
-struct Datagram {
-  std::int64_t received_ns = 0;
-  std::uint16_t port = 0;    ///< destination
-  std::string_view payload;  ///< valid until the next call
-};
-
 /// Reads with libpcap. Ethernet (VLANs too), Linux cooked, loopback and raw captures; IPv4, put together again when it
 /// was fragmented, and unfragmented IPv6.
-class UdpReader {
+class UdpReader final : public PacketStream {
  public:
   /// @throws IoError when the file is no capture, or of a link type that we do not know.
   explicit UdpReader(std::filesystem::path file);
-  ~UdpReader();
+  ~UdpReader() override;
   UdpReader(const UdpReader&) = delete;
   UdpReader& operator=(const UdpReader&) = delete;
 
   /// The next datagram, or nothing at the end. A capture that is cut off ends there, with a warning.
-  std::optional<Datagram> next();
+  std::optional<Datagram> next() override;
 
-  const std::filesystem::path& file() const { return file_; }
-  /// Whether it ended where it did because the file lost bytes while it was read.
-  bool shortened() const { return shortened_; }
-  /// Sentences for the user.
-  std::vector<std::string> warnings() const;
+  bool is_mixed() const override { return true; }
+  bool shortened() const override { return shortened_; }
+  std::vector<std::string> warnings() const override;
 
  private:
   struct Fragments {

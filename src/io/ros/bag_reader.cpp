@@ -31,10 +31,10 @@ class BagReader final : public Recording {
   std::string format() const override { return "ROS 1 bag"; }
   const std::vector<RecordedTopic>& topics() const override { return topics_; }
 
-  void select(const std::string& topic) override {
+  void select(const RecordedTopic& topic) override {
     guarded("", [&] {
       view_ = std::make_unique<rosbag::View>(bag_, [topic](const rosbag::ConnectionInfo* connection) {
-        return connection->topic == topic && is_point_cloud({topic, connection->datatype, "ros1", {}});
+        return topic.has_same_messages({connection->topic, connection->datatype, "ros1", {}});
       });
       place_ = view_->begin();
       taken_ = 0;

@@ -128,10 +128,10 @@ class Db3Reader final : public Recording {
   std::string format() const override { return "rosbag2 (sqlite3)"; }
   const std::vector<RecordedTopic>& topics() const override { return topics_; }
 
-  void select(const std::string& topic) override {
+  void select(const RecordedTopic& topic) override {
     std::string ids;
     for (std::size_t i = 0; i < topics_.size(); ++i) {
-      if (topics_[i].name == topic && is_point_cloud(topics_[i])) {
+      if (topics_[i].has_same_messages(topic)) {
         ids += (ids.empty() ? "" : ", ") + std::to_string(ids_[i]);
       }
     }

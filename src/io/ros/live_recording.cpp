@@ -13,7 +13,7 @@ class LiveRecording final : public Recording {
   std::string format() const override { return "ROS 1 topic"; }
   const std::vector<RecordedTopic>& topics() const override { return topics_; }
 
-  void select(const std::string& /*topic*/) override {
+  void select(const RecordedTopic& /*topic*/) override {
     looking_ahead_ = selections_++ == 0;
     next_kept_ = 0;
   }

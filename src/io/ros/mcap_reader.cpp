@@ -37,7 +37,7 @@ class Reader final : public Recording {
   const std::vector<RecordedTopic>& topics() const override { return topics_; }
   std::vector<std::string> warnings() const override { return file_.warnings(); }
 
-  void select(const std::string& topic) override {
+  void select(const RecordedTopic& topic) override {
     topic_ = topic;
     place_ = kMagic.size();
     leave_chunk();
@@ -139,10 +139,10 @@ class Reader final : public Recording {
 
   bool is_wanted(std::uint16_t id) const {
     const auto channel = known_.channels.find(id);
-    if (channel == known_.channels.end() || channel->second.topic != topic_) return false;
+    if (channel == known_.channels.end()) return false;
     const auto schema = known_.schemas.find(channel->second.schema_id);
     return schema != known_.schemas.end() &&
-           is_point_cloud({channel->second.topic, schema->second, channel->second.encoding, {}});
+           topic_.has_same_messages({channel->second.topic, schema->second, channel->second.encoding, {}});
   }
 
   // Goes on to the next message that `wanted` takes.
@@ -254,7 +254,7 @@ class Reader final : public Recording {
   std::map<std::uint16_t, std::uint64_t> counts_;
   std::vector<RecordedTopic> topics_;
   std::string compression_;
-  std::string topic_;
+  RecordedTopic topic_;
   std::set<std::uint64_t> without_topic_;
   std::uint64_t place_ = kMagic.size();  // of the next record
   std::vector<char> chunk_;

@@ -1,12 +1,11 @@
 #include "rilo/io/point_cloud2.hpp"
 
 #include <array>
-#include <cstring>
 #include <optional>
+#include <utility>
 
-#include "io/byte_cursor.hpp"
 #include "io/cloud_columns.hpp"
-#include "io/stamp_difference.hpp"
+#include "io/ros/message_cursor.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
@@ -14,57 +13,9 @@ namespace rilo {
 namespace detail {
 namespace {
 
-// The values of a message in their order; the encodings differ in alignment and in the end of strings.
-class MessageCursor {
- public:
-  MessageCursor(std::string_view bytes, MessageEncoding encoding, const BytesOrigin& origin)
-      : cdr_(encoding == MessageEncoding::kCdr),
-        cursor_(cdr_ ? after_encapsulation(bytes, origin) : bytes, origin, cdr_ ? kEncapsulation : 0) {}
-
-  template <typename T>
-  T take(const char* what) {
-    if (cdr_) cursor_.align(sizeof(T));
-    return cursor_.take<T>(what);
-  }
-  std::string_view take_sequence(const char* what) {
-    const auto size = take<std::uint32_t>(what);
-    return cursor_.take_bytes(size, what);
-  }
-  std::string take_string(const char* what) {
-    std::string_view text = take_sequence(what);
-    if (cdr_ && !text.empty() && text.back() == '\0') text.remove_suffix(1);
-    return std::string(text);
-  }
-  const ByteCursor& place() const { return cursor_; }
-
- private:
-  static constexpr std::size_t kEncapsulation = 4;
-
-  // CDR and, without members of 8 bytes the same, XCDR2; the low bit says little-endian.
-  static std::string_view after_encapsulation(std::string_view bytes, const BytesOrigin& origin) {
-    ByteCursor cursor(bytes, origin);
-    const std::string_view kind = cursor.take_bytes(kEncapsulation, "encapsulation");
-    if (kind[0] != 0 || (kind[1] != 1 && kind[1] != 7)) {
-      throw IoError({origin.file, byte_position(origin, 0),
-                     "an encapsulation of " + std::to_string(static_cast<unsigned char>(kind[0])) + " " +
-                         std::to_string(static_cast<unsigned char>(kind[1])),
-                     "0 1 (CDR, little-endian)", "Record on a little-endian machine, or check the message's type"});
-    }
-    return bytes.substr(kEncapsulation);
-  }
-
-  bool cdr_;
-  ByteCursor cursor_;
-};
-
 std::vector<PointField> take_fields(MessageCursor& cursor) {
   constexpr std::size_t kLeastFieldBytes = 13;  // an empty name, offset, datatype, count
-  const auto count = cursor.take<std::uint32_t>("fields");
-  if (count > cursor.place().left() / kLeastFieldBytes) {
-    throw IoError({cursor.place().origin().file, cursor.place().position(), std::to_string(count) + " fields",
-                   "at most what the " + std::to_string(cursor.place().left()) + " bytes that follow can hold",
-                   "The message is damaged, or is no PointCloud2"});
-  }
+  const std::size_t count = take_count(cursor, kLeastFieldBytes, "fields", "PointCloud2");
   std::vector<PointField> fields(count);
   for (PointField& field : fields) {
     field.name = cursor.take_string("field name");
@@ -145,13 +96,9 @@ PointCloud2 parse_point_cloud2(std::string_view bytes, MessageEncoding encoding,
   const detail::BytesOrigin origin{file, part};
   detail::MessageCursor cursor(bytes, encoding, origin);
   PointCloud2 message;
-  if (encoding == MessageEncoding::kRos1) cursor.take<std::uint32_t>("sequence number");
-  // ROS 1: unsigned seconds, ROS 2: signed.
-  const auto seconds = cursor.take<std::uint32_t>("stamp");
-  const std::int64_t whole =
-      encoding == MessageEncoding::kRos1 ? std::int64_t{seconds} : std::int64_t{static_cast<std::int32_t>(seconds)};
-  message.stamp_ns = whole * detail::kNanosecondsPerSecond + cursor.take<std::uint32_t>("stamp");
-  message.frame_id = cursor.take_string("frame_id");
+  detail::MessageHeaderFields header = detail::take_header(cursor, encoding);
+  message.stamp_ns = header.stamp_ns;
+  message.frame_id = std::move(header.frame_id);
   message.height = cursor.take<std::uint32_t>("height");
   message.width = cursor.take<std::uint32_t>("width");
   message.fields = detail::take_fields(cursor);

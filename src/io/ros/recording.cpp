@@ -7,11 +7,6 @@
 
 namespace rilo::detail {
 
-bool is_point_cloud(const RecordedTopic& topic) {
-  const bool type = topic.type == "sensor_msgs/PointCloud2" || topic.type == "sensor_msgs/msg/PointCloud2";
-  return type && (topic.encoding == "ros1" || topic.encoding == "cdr");
-}
-
 MessageEncoding encoding_of(const RecordedTopic& topic) {
   return topic.encoding == "ros1" ? MessageEncoding::kRos1 : MessageEncoding::kCdr;
 }
@@ -49,7 +44,7 @@ class RecordingsInTurn final : public Recording {
   std::string format() const override { return format_; }
   const std::vector<RecordedTopic>& topics() const override { return topics_; }
 
-  void select(const std::string& topic) override {
+  void select(const RecordedTopic& topic) override {
     topic_ = topic;
     place_ = 0;
     if (files_.size() > 1) current_.reset();
@@ -81,7 +76,7 @@ class RecordingsInTurn final : public Recording {
  private:
   void add_topics(const std::vector<RecordedTopic>& topics) {
     for (const RecordedTopic& topic : topics) {
-      const auto same = [&](const RecordedTopic& known) { return known.name == topic.name; };
+      const auto same = [&](const RecordedTopic& known) { return known.has_same_messages(topic); };
       const auto known = std::find_if(topics_.begin(), topics_.end(), same);
       if (known == topics_.end()) {
         topics_.push_back(topic);
@@ -98,7 +93,7 @@ class RecordingsInTurn final : public Recording {
     while (place_ < files_.size()) {
       current_ = open_(files_[place_++]);
       const auto& topics = current_->topics();
-      const auto wanted = [&](const RecordedTopic& topic) { return topic.name == topic_; };
+      const auto wanted = [&](const RecordedTopic& topic) { return topic.has_same_messages(topic_); };
       if (std::any_of(topics.begin(), topics.end(), wanted)) {
         current_->select(topic_);
         return true;
@@ -121,7 +116,7 @@ class RecordingsInTurn final : public Recording {
   std::string format_;
   std::vector<RecordedTopic> topics_;
   std::vector<std::string> warnings_;
-  std::string topic_;
+  RecordedTopic topic_;
   std::unique_ptr<Recording> current_;
   std::size_t place_ = 0;
 };

@@ -20,10 +20,13 @@ struct RecordedTopic {
   std::string type;      ///< "sensor_msgs/PointCloud2", "sensor_msgs/msg/PointCloud2", …
   std::string encoding;  ///< "ros1", "cdr", or what else the file says
   std::optional<std::uint64_t> messages;
+
+  bool has_same_messages(const RecordedTopic& other) const {
+    return name == other.name && type == other.type && encoding == other.encoding;
+  }
 };
 
-/// Its messages are PointCloud2 in an encoding that we read.
-bool is_point_cloud(const RecordedTopic& topic);
+/// Of a topic whose encoding is "ros1" or "cdr".
 MessageEncoding encoding_of(const RecordedTopic& topic);
 
 struct RecordedMessage {
@@ -42,8 +45,8 @@ class Recording {
 
   virtual const std::vector<RecordedTopic>& topics() const = 0;
 
-  /// Goes to the first message of that topic, one of topics().
-  virtual void select(const std::string& topic) = 0;
+  /// Goes to the first message of that topic, one of topics(): those of its name and type.
+  virtual void select(const RecordedTopic& topic) = 0;
 
   /// The next message of the selected topic, or nothing at the end.
   /// @throws IoError when it cannot be read; the following call goes on behind it.

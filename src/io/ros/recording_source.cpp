@@ -4,50 +4,50 @@
 #include <utility>
 #include <vector>
 
-#include "io/cloud_columns.hpp"
+#include "io/ros/livox_message.hpp"
+#include "io/ros/recorded_packets.hpp"
+#include "io/ros/scan_topic.hpp"
 #include "io/scan_listing.hpp"
 #include "io/stamp_difference.hpp"
-#include "io/text.hpp"
 
 namespace rilo::detail {
 namespace {
 
-std::string list_of(const std::vector<RecordedTopic>& topics) {
-  std::string text;
-  for (const RecordedTopic& topic : topics) {
-    text += (text.empty() ? "" : ", ") + topic.name + " (" + topic.type +
-            (topic.encoding == "ros1" || topic.encoding == "cdr" ? "" : ", encoding " + in_quotes(topic.encoding)) +
-            (topic.messages ? ", " + std::to_string(*topic.messages) + " messages)" : ")");
+// A message of either form of clouds.
+struct CloudMessage {
+  std::optional<std::int64_t> stamp_ns;
+  std::string frame_id;
+  RawCloud cloud;
+};
+
+// Stamp and frame are set even when it throws because of the points.
+void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, const std::string& time_field,
+                 const std::string& part, CloudMessage& into) {
+  if (scan_form(topic) == ScanForm::kLivoxCustom) {
+    LivoxMessage livox = parse_livox(message.bytes, encoding_of(topic), message.file, part);
+    into = {livox.stamp_ns, std::move(livox.frame_id), std::move(livox.cloud)};
+    return;
   }
-  return text.empty() ? "no topics" : text;
+  PointCloud2 cloud = parse_point_cloud2(message.bytes, encoding_of(topic), message.file, part);
+  into.stamp_ns = cloud.stamp_ns;
+  into.frame_id = std::move(cloud.frame_id);
+  into.cloud = columns_of(cloud, time_field, message.file, part);
 }
 
-RecordedTopic choose_topic(const std::filesystem::path& path, const std::vector<RecordedTopic>& topics,
-                           const std::string& wanted) {
-  std::vector<RecordedTopic> clouds;
-  for (const RecordedTopic& topic : topics) {
-    if (is_point_cloud(topic) && (wanted.empty() || topic.name == wanted)) clouds.push_back(topic);
+PointTimeHints hints_of(const RecordedTopic& topic, const SourceOptions& options) {
+  PointTimeHints hints{options.point_time_unit, options.point_time_reference, {}, 0};
+  if (scan_form(topic) == ScanForm::kLivoxCustom) {  // by definition of the message
+    hints.unit = PointTimeUnit::kNanoseconds;
+    hints.reference = PointTimeReference::kStamp;
   }
-  if (clouds.size() == 1) return clouds[0];
-  if (!wanted.empty()) {
-    throw IoError({path, "", list_of(topics), "PointCloud2 messages on the topic " + in_quotes(wanted),
-                   "Name one of these with --topic, or leave it out when only one is a PointCloud2"});
-  }
-  if (clouds.empty()) {
-    throw IoError({path, "", list_of(topics), "a topic of type sensor_msgs/PointCloud2 in ROS 1's or CDR encoding",
-                   "Record the point clouds, not the sensor's packets"});
-  }
-  throw IoError({path, "", std::to_string(clouds.size()) + " PointCloud2 topics: " + list_of(clouds), "one",
-                 "Choose one with --topic"});
+  return hints;
 }
 
 }  // namespace
 
 RecordingSource::RecordingSource(const std::filesystem::path& path, std::unique_ptr<Recording> recording,
-                                 const SourceOptions& options)
-    : recording_(std::move(recording)),
-      options_(options),
-      topic_(choose_topic(path, recording_->topics(), options.topic)) {
+                                 RecordedTopic topic, const SourceOptions& options)
+    : recording_(std::move(recording)), options_(options), topic_(std::move(topic)) {
   info_.kind = "recording";
   info_.path = path;
   info_.topic = topic_.name;
@@ -60,24 +60,27 @@ void RecordingSource::look_ahead() {
   constexpr std::size_t kLookedAt = 12;
   std::vector<std::int64_t> stamps;
   std::optional<std::string> promised;
-  recording_->select(topic_.name);
+  recording_->select(topic_);
   for (std::size_t i = 0; i < kLookedAt; ++i) {
+    CloudMessage cloud;
     try {
       const auto message = recording_->next();
       if (!message) break;
-      const PointCloud2 cloud = parse_point_cloud2(message->bytes, encoding_of(topic_), message->file);
-      stamps.push_back(cloud.stamp_ns);
-      info_.frame_id = cloud.frame_id;
-      const RawCloud columns = columns_of(cloud, options_.time_field, message->file);
-      if (columns.times) promised = "field " + columns.times->field;
+      parse_cloud(*message, topic_, options_.time_field, "", cloud);
+      if (cloud.cloud.times) promised = "field " + cloud.cloud.times->field;
     } catch (const IoError&) {
       // Reported when its turn comes.
     }
+    if (!cloud.stamp_ns) continue;
+    stamps.push_back(*cloud.stamp_ns);
+    info_.frame_id = cloud.frame_id;
   }
-  recording_->select(topic_.name);
+  recording_->select(topic_);
   const auto gap_s = median_gap_s(stamps);
   info_.period_s = gap_s.value_or(1 / options_.assumed_rate_hz);
-  const PointTimeHints hints{options_.point_time_unit, options_.point_time_reference, gap_s, info_.period_s};
+  PointTimeHints hints = hints_of(topic_, options_);
+  hints.period_s = gap_s;
+  hints.assumed_period_s = info_.period_s;
   timing_.emplace(options_, hints, info_.period_s);
   timing_->promise(promised);
 }
@@ -119,16 +122,17 @@ SourceInfo RecordingSource::info() const {
 Sweep RecordingSource::decode(const RecordedMessage& message) {
   file_ = message.file;
   const std::string part = "message " + std::to_string(current_ + 1) + " of " + topic_.name;
-  const PointCloud2 cloud = parse_point_cloud2(message.bytes, encoding_of(topic_), message.file, part);
-  info_.frame_id = cloud.frame_id;
-  RawCloud columns = columns_of(cloud, options_.time_field, message.file, part);
+  CloudMessage cloud;
+  parse_cloud(message, topic_, options_.time_field, part, cloud);
+  info_.frame_id = std::move(cloud.frame_id);
+  RawCloud& columns = cloud.cloud;
   Sweep sweep;
-  sweep.stamp_ns = cloud.stamp_ns;
+  sweep.stamp_ns = *cloud.stamp_ns;
   sweep.points = std::move(columns.points);
   sweep.intensities = std::move(columns.intensities);
   sweep.rings = std::move(columns.rings);
   timing_->apply(columns.times, current_name(), 0, sweep);
-  note_lateness(stamp_difference(message.received_ns, cloud.stamp_ns));
+  note_lateness(stamp_difference(message.received_ns, *cloud.stamp_ns));
   return sweep;
 }
 
@@ -139,6 +143,13 @@ void RecordingSource::note_lateness(std::int64_t late_ns) {
   if (late_s <= info_.period_s) return;
   ++info_.faults.late;
   info_.faults.most_late_s = std::max(info_.faults.most_late_s, late_s);
+}
+
+std::unique_ptr<ScanSource> open_recording(const std::filesystem::path& path, std::unique_ptr<Recording> recording,
+                                           const SourceOptions& options) {
+  const RecordedTopic topic = choose_topic(path, recording->topics(), options.topic);
+  if (is_packets(scan_form(topic))) return open_packet_topic(path, std::move(recording), topic, options);
+  return std::make_unique<RecordingSource>(path, std::move(recording), topic, options);
 }
 
 }  // namespace rilo::detail

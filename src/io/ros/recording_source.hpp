@@ -1,4 +1,4 @@
-// Sweeps from the PointCloud2 messages of a recording.
+// Sweeps from the messages of a recording.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ namespace rilo::detail {
 
 class RecordingSource final : public ScanSource {
  public:
-  /// Takes options.topic, or the only PointCloud2 topic. @throws IoError that lists the topics when that is not one.
-  RecordingSource(const std::filesystem::path& path, std::unique_ptr<Recording> recording,
+  /// `topic`: one of recording->topics() with clouds (PointCloud2, Livox CustomMsg).
+  RecordingSource(const std::filesystem::path& path, std::unique_ptr<Recording> recording, RecordedTopic topic,
                   const SourceOptions& options);
 
   std::optional<Sweep> next() override;
@@ -42,5 +42,10 @@ class RecordingSource final : public ScanSource {
   std::size_t current_ = 0;  // of the last one
   std::optional<std::int64_t> usual_delay_ns_;
 };
+
+/// The clouds or packets of the topic that choose_topic() finds. @throws IoError as it does, and as
+/// open_packet_topic().
+std::unique_ptr<ScanSource> open_recording(const std::filesystem::path& path, std::unique_ptr<Recording> recording,
+                                           const SourceOptions& options);
 
 }  // namespace rilo::detail

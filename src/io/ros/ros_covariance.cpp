@@ -17,6 +17,10 @@ Matrix6d ros_pose_covariance(const SE3& T_parent_body, const Matrix6d& covarianc
   return swapped(T_parent_body.linear(), covariance);
 }
 
-Matrix6d ros_twist_covariance(const Matrix6d& covariance) { return swapped(Eigen::Matrix3d::Identity(), covariance); }
+Matrix6d ros_twist_covariance(const Matrix6d& covariance, double step_s) {
+  constexpr double kUnknownVariance = 1e6;
+  if (!(step_s > 0)) return kUnknownVariance * Matrix6d::Identity();
+  return swapped(Eigen::Matrix3d::Identity(), covariance) / (step_s * step_s);
+}
 
 }  // namespace rilo

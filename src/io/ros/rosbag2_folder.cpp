@@ -107,7 +107,7 @@ class Wrapped : public Recording {
  public:
   explicit Wrapped(std::unique_ptr<Recording> inner) : inner_(std::move(inner)) {}
   const std::vector<RecordedTopic>& topics() const override { return inner_->topics(); }
-  void select(const std::string& topic) override { inner_->select(topic); }
+  void select(const RecordedTopic& topic) override { inner_->select(topic); }
   std::optional<RecordedMessage> next() override { return inner_->next(); }
   std::size_t skip(std::size_t count) override { return inner_->skip(count); }
   std::vector<std::string> warnings() const override { return inner_->warnings(); }

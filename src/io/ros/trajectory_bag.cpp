@@ -8,7 +8,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "io/raw_bytes.hpp"
-#include "io/stamp_difference.hpp"
+#include "io/ros/message_stamp.hpp"
 #include "io/unit_quaternion.hpp"
 #include "rilo/io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
@@ -65,12 +65,10 @@ namespace {
 using detail::append_bytes;
 using detail::BagMessage;
 
-constexpr std::int64_t kLastSecond = 0xFFFFFFFF;
-
 ros::Time ros_time(std::int64_t stamp_ns, std::int64_t least_ns) {
-  const std::int64_t known = std::max(stamp_ns, least_ns);
-  const std::int64_t seconds = std::min(known / detail::kNanosecondsPerSecond, kLastSecond);
-  return {static_cast<std::uint32_t>(seconds), static_cast<std::uint32_t>(known % detail::kNanosecondsPerSecond)};
+  constexpr std::uint32_t kLastSecond = 0xFFFFFFFF;
+  const detail::MessageStamp stamp = detail::message_stamp(stamp_ns, least_ns, kLastSecond);
+  return {stamp.seconds, stamp.nanoseconds};
 }
 
 void append_text(std::string& bytes, const std::string& text) {
@@ -94,16 +92,19 @@ void append_stamped_pose(std::string& bytes, const SweepResult& result, std::uin
   for (const double value : {q.x(), q.y(), q.z(), q.w()}) append_bytes(bytes, value);
 }
 
-BagMessage<nav_msgs::Odometry> bag_odometry(const SweepResult& result, std::uint32_t number,
+// Symmetric: the storage order does not matter.
+void append_covariance(std::string& bytes, const Matrix6d& covariance) {
+  for (const double value : covariance.reshaped()) append_bytes(bytes, value);
+}
+
+BagMessage<nav_msgs::Odometry> bag_odometry(const SweepResult& result, double step_s, std::uint32_t number,
                                             const RecordingNames& names) {
   BagMessage<nav_msgs::Odometry> message;
   append_stamped_pose(message.bytes, result, number, names);
-  const Matrix6d covariance =
-      ros_pose_covariance(result.T_odom_lidar, result.covariance);  // symmetric: the storage order does not matter
-  for (const double value : covariance.reshaped()) append_bytes(message.bytes, value);
+  append_covariance(message.bytes, ros_pose_covariance(result.T_odom_lidar, result.covariance));
   append_vector(message.bytes, result.twist.tail<3>());
   append_vector(message.bytes, result.twist.head<3>());
-  for (int i = 0; i < 36; ++i) append_bytes(message.bytes, 0.0);  // unknown
+  append_covariance(message.bytes, ros_twist_covariance(result.covariance, step_s));
   return message;
 }
 
@@ -126,7 +127,7 @@ void write_bag(const std::filesystem::path& file, std::span<const SweepResult> r
     for (std::size_t i = 0; i < results.size(); ++i) {
       const auto number = static_cast<std::uint32_t>(i);
       const ros::Time time = ros_time(results[i].stamp_ns, 1);
-      bag.write(names.odometry_topic, time, bag_odometry(results[i], number, names));
+      bag.write(names.odometry_topic, time, bag_odometry(results[i], detail::step_to(results, i), number, names));
       bag.write(names.tf_topic, time, bag_transform(results[i], number, names));
     }
     bag.close();

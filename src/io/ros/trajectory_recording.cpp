@@ -4,7 +4,7 @@
 
 #include "io/ros/cdr_writer.hpp"
 #include "io/ros/mcap_writer.hpp"
-#include "io/stamp_difference.hpp"
+#include "io/ros/message_stamp.hpp"
 #include "io/unit_quaternion.hpp"
 #include "rilo/io/ros_covariance.hpp"
 
@@ -52,17 +52,19 @@ std::string tf_definition() {
 }
 
 void put_header(CdrWriter& cdr, std::int64_t stamp_ns, const RecordingNames& names) {
-  std::int64_t seconds = stamp_ns / detail::kNanosecondsPerSecond;
-  std::int64_t rest = stamp_ns % detail::kNanosecondsPerSecond;
-  if (rest < 0) {
-    --seconds;
-    rest += detail::kNanosecondsPerSecond;
-  }
-  cdr.put(static_cast<std::int32_t>(seconds)).put(static_cast<std::uint32_t>(rest));
+  constexpr std::uint32_t kLastSecond = 0x7FFFFFFF;  // builtin_interfaces/Time has int32
+  const detail::MessageStamp stamp = detail::message_stamp(stamp_ns, 0, kLastSecond);
+  cdr.put(static_cast<std::int32_t>(stamp.seconds)).put(stamp.nanoseconds);
   cdr.put_text(names.odom_frame).put_text(names.lidar_frame);
 }
 
 void put_vector(CdrWriter& cdr, const Eigen::Vector3d& v) { cdr.put(v.x()).put(v.y()).put(v.z()); }
+
+void put_covariance(CdrWriter& cdr, const Matrix6d& covariance) {
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    for (Eigen::Index column = 0; column < 6; ++column) cdr.put(covariance(row, column));
+  }
+}
 
 // Position or translation, then the rotation.
 void put_pose(CdrWriter& cdr, const SE3& T) {
@@ -71,17 +73,14 @@ void put_pose(CdrWriter& cdr, const SE3& T) {
   cdr.put(q.x()).put(q.y()).put(q.z()).put(q.w());
 }
 
-std::string odometry_message(const SweepResult& result, const RecordingNames& names) {
+std::string odometry_message(const SweepResult& result, double step_s, const RecordingNames& names) {
   CdrWriter cdr;
   put_header(cdr, result.stamp_ns, names);
   put_pose(cdr, result.T_odom_lidar);
-  const Matrix6d covariance = ros_pose_covariance(result.T_odom_lidar, result.covariance);
-  for (Eigen::Index row = 0; row < 6; ++row) {
-    for (Eigen::Index column = 0; column < 6; ++column) cdr.put(covariance(row, column));
-  }
+  put_covariance(cdr, ros_pose_covariance(result.T_odom_lidar, result.covariance));
   put_vector(cdr, result.twist.tail<3>());
   put_vector(cdr, result.twist.head<3>());
-  for (int i = 0; i < 36; ++i) cdr.put(0.0);  // unknown
+  put_covariance(cdr, ros_twist_covariance(result.covariance, step_s));
   return cdr.bytes();
 }
 
@@ -100,8 +99,9 @@ void write_mcap(const std::filesystem::path& file, std::span<const SweepResult> 
   const std::uint16_t odometry =
       writer.add_channel(names.odometry_topic, "nav_msgs/msg/Odometry", odometry_definition());
   const std::uint16_t tf = writer.add_channel(names.tf_topic, "tf2_msgs/msg/TFMessage", tf_definition());
-  for (const SweepResult& result : results) {
-    writer.add_message(odometry, result.stamp_ns, odometry_message(result, names));
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const SweepResult& result = results[i];
+    writer.add_message(odometry, result.stamp_ns, odometry_message(result, detail::step_to(results, i), names));
     writer.add_message(tf, result.stamp_ns, tf_message(result, names));
   }
   writer.finish();

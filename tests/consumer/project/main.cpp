@@ -4,6 +4,10 @@
 
 #include "rilo/odometry/odometry.hpp"
 
+#ifdef RUN_RECORDING
+int run_recording_of_a_room(const rilo::Sweep& first, const rilo::Sweep& second);
+#endif
+
 namespace {
 
 // Points on the walls and the floor of the room, seen from `x` metres along it.
@@ -27,6 +31,9 @@ rilo::Sweep room_seen_from(float x, std::int64_t stamp_ns) {
 }  // namespace
 
 int main() {
+#ifdef RUN_RECORDING
+  return run_recording_of_a_room(room_seen_from(0.0F, 0), room_seen_from(0.5F, 100'000'000));
+#endif
   rilo::Odometry odometry{rilo::OdometryConfig{}};
   odometry.register_sweep(room_seen_from(0.0F, 0));
   const rilo::SweepResult result = odometry.register_sweep(room_seen_from(0.5F, 100'000'000));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,5 +74,53 @@ inline std::string velodyne_packet(int azimuth, int step, std::uint32_t hour_us,
   }
   return bytes.put(hour_us).put(mode).put(product).text;
 }
+
+// An Ouster of four beams and 1024 columns at 10 Hz.
+struct OusterShape {
+  std::string profile;
+  std::size_t pixel;
+  bool legacy;
+};
+
+inline std::string ouster_metadata(const OusterShape& shape) {
+  return R"({"lidar_mode": "1024x10", "prod_line": "OS-1-4", "beam_altitude_angles": [10, 0, -10, -20],
+            "beam_azimuth_angles": [0, 1, 0, -1], "lidar_origin_to_beam_origin_mm": 15.0,
+            "data_format": {"columns_per_frame": 1024, "columns_per_packet": 16, "pixels_per_column": 4,
+                            "udp_profile_lidar": ")" +
+         shape.profile + "\"}}";
+}
+
+inline std::string ouster_pixel(const OusterShape& shape, std::uint32_t range_mm, std::uint8_t reflectivity) {
+  std::string pixel(shape.pixel, '\0');
+  const std::uint32_t word = shape.pixel == 4 ? range_mm / 8 : range_mm;
+  std::memcpy(pixel.data(), &word, 4);
+  pixel[shape.pixel == 4 ? 2 : shape.pixel == 16 ? 3 : 4] = static_cast<char>(reflectivity);
+  return pixel;
+}
+
+inline std::string ouster_packet(const OusterShape& shape, std::uint16_t frame, std::size_t first_column,
+                                 std::uint64_t ns) {
+  Bytes bytes;
+  if (!shape.legacy) bytes.put(std::uint16_t{1}).put(frame).raw(std::string(28, '\0'));
+  for (std::size_t i = 0; i < 16; ++i) {
+    const auto column = static_cast<std::uint16_t>(first_column + i);
+    bytes.put(ns + i * 97'656).put(column);
+    if (shape.legacy) {
+      bytes.put(frame).put(std::uint32_t{0});
+    } else {
+      bytes.put(std::uint16_t{1});
+    }
+    for (std::uint8_t k = 0; k < 4; ++k)
+      bytes.raw(ouster_pixel(shape, k == 3 ? 0 : 8000, static_cast<std::uint8_t>(k + 7)));
+    if (shape.legacy) bytes.put(std::uint32_t{0xFFFFFFFF});
+  }
+  if (!shape.legacy) bytes.raw(std::string(32, '\0'));
+  return bytes.text;
+}
+
+inline const std::vector<OusterShape> kOusterShapes{{"LEGACY", 12, true},
+                                                    {"RNG15_RFL8_NIR8", 4, false},
+                                                    {"RNG19_RFL8_SIG16_NIR16", 12, false},
+                                                    {"RNG19_RFL8_SIG16_NIR16_DUAL", 16, false}};
 
 }  // namespace rilo::test

@@ -15,6 +15,10 @@ using test::Bytes;
 using test::Capture;
 using test::expect_io_error;
 using test::has_warning;
+using test::kOusterShapes;
+using test::ouster_metadata;
+using test::ouster_packet;
+using test::OusterShape;
 using test::sweeps_of;
 using test::TempDir;
 using test::velodyne_packet;
@@ -44,7 +48,7 @@ TEST(VelodyneTest, TurnsFromTheRear) {
   const TempDir folder;
   const auto source = open_scan_source(folder.write("v.pcap", velodyne_drive(0x28, 4.5).text()));
   const auto sweeps = sweeps_of(*source);
-  ASSERT_EQ(sweeps.size(), 4U);  // begun at 90°: a quarter at the beginning and a quarter at the end are left out
+  ASSERT_EQ(sweeps.size(), 4U);  // begun at 90°: a quarter at the beginning and a quarter at the end are dropped
   for (const Sweep& sweep : sweeps) {
     EXPECT_EQ(sweep.points.size(), 360U * 32);
     EXPECT_EQ(sweep.times_s.front(), 0);
@@ -61,7 +65,7 @@ TEST(VelodyneTest, TurnsFromTheRear) {
   EXPECT_EQ(info.kind, "packets");
   EXPECT_EQ(info.format, "Velodyne VLP-32C");
   EXPECT_NEAR(info.period_s, 0.1, 1e-3);
-  EXPECT_TRUE(has_warning(info, "2 parts of a turn"));
+  EXPECT_TRUE(has_warning(info, "dropped 2 incomplete revolutions"));
   EXPECT_EQ(info.faults, StampFaults{});
 }
 
@@ -162,47 +166,6 @@ TEST(PacketClockTest, TakesAClockThatIsRightAndSetsAnyOther) {
 
 // --- Ouster -------------------------------------------------------------------------------------------------------
 
-struct OusterShape {
-  std::string profile;
-  std::size_t pixel;
-  bool legacy;
-};
-
-std::string ouster_metadata(const OusterShape& shape) {
-  return R"({"lidar_mode": "1024x10", "prod_line": "OS-1-4", "beam_altitude_angles": [10, 0, -10, -20],
-            "beam_azimuth_angles": [0, 1, 0, -1], "lidar_origin_to_beam_origin_mm": 15.0,
-            "data_format": {"columns_per_frame": 1024, "columns_per_packet": 16, "pixels_per_column": 4,
-                            "udp_profile_lidar": ")" +
-         shape.profile + "\"}}";
-}
-
-std::string ouster_pixel(const OusterShape& shape, std::uint32_t range_mm, std::uint8_t reflectivity) {
-  std::string pixel(shape.pixel, '\0');
-  const std::uint32_t word = shape.pixel == 4 ? range_mm / 8 : range_mm;
-  std::memcpy(pixel.data(), &word, 4);
-  pixel[shape.pixel == 4 ? 2 : shape.pixel == 16 ? 3 : 4] = static_cast<char>(reflectivity);
-  return pixel;
-}
-
-std::string ouster_packet(const OusterShape& shape, std::uint16_t frame, std::size_t first_column, std::uint64_t ns) {
-  Bytes bytes;
-  if (!shape.legacy) bytes.put(std::uint16_t{1}).put(frame).raw(std::string(28, '\0'));
-  for (std::size_t i = 0; i < 16; ++i) {
-    const auto column = static_cast<std::uint16_t>(first_column + i);
-    bytes.put(ns + i * 97'656).put(column);
-    if (shape.legacy) {
-      bytes.put(frame).put(std::uint32_t{0});
-    } else {
-      bytes.put(std::uint16_t{1});
-    }
-    for (std::uint8_t k = 0; k < 4; ++k)
-      bytes.raw(ouster_pixel(shape, k == 3 ? 0 : 8000, static_cast<std::uint8_t>(k + 7)));
-    if (shape.legacy) bytes.put(std::uint32_t{0xFFFFFFFF});
-  }
-  if (!shape.legacy) bytes.raw(std::string(32, '\0'));
-  return bytes.text;
-}
-
 Capture ouster_drive(const OusterShape& shape, std::size_t packets, std::size_t mtu = 65000) {
   Capture capture;
   for (std::size_t i = 0; i < packets; ++i) {
@@ -214,19 +177,14 @@ Capture ouster_drive(const OusterShape& shape, std::size_t packets, std::size_t 
   return capture;
 }
 
-const std::vector<OusterShape> kShapes{{"LEGACY", 12, true},
-                                       {"RNG15_RFL8_NIR8", 4, false},
-                                       {"RNG19_RFL8_SIG16_NIR16", 12, false},
-                                       {"RNG19_RFL8_SIG16_NIR16_DUAL", 16, false}};
-
 TEST(OusterTest, FramesOfEveryProfile) {
-  for (const OusterShape& shape : kShapes) {
+  for (const OusterShape& shape : kOusterShapes) {
     SCOPED_TRACE(shape.profile);
     const TempDir folder;
     folder.write("o.json", ouster_metadata(shape));
     const auto source = open_scan_source(folder.write("o.pcap", ouster_drive(shape, 200).text()));
     const auto sweeps = sweeps_of(*source);
-    ASSERT_EQ(sweeps.size(), 3U);  // the 8 packets at the end are left out
+    ASSERT_EQ(sweeps.size(), 3U);  // the 8 packets at the end are dropped
     for (const Sweep& sweep : sweeps) {
       ASSERT_EQ(sweep.points.size(), 1024U * 3);  // the lowest beam has no return
       EXPECT_NEAR(sweep.times_s.back(), 0.1F, 2e-4F);
@@ -249,7 +207,7 @@ TEST(OusterTest, FramesOfEveryProfile) {
 
 TEST(OusterTest, FragmentedPackets) {
   const TempDir folder;
-  const OusterShape& shape = kShapes[2];
+  const OusterShape& shape = kOusterShapes[2];
   folder.write("o.json", ouster_metadata(shape));
   const auto whole = sweeps_of(*open_scan_source(folder.write("o.pcap", ouster_drive(shape, 130).text())));
   const auto parts = sweeps_of(*open_scan_source(folder.write("p.pcap", ouster_drive(shape, 130, 400).text())));
@@ -260,23 +218,45 @@ TEST(OusterTest, FragmentedPackets) {
 
 TEST(OusterTest, MetadataThatDoNotFit) {
   const TempDir folder;
-  const OusterShape& shape = kShapes[2];
+  const OusterShape& shape = kOusterShapes[2];
   const auto file = folder.write("o.pcap", ouster_drive(shape, 70).text());
   expect_io_error([&] { open_scan_source(file); },
-                  {"o.pcap", "of 1024 bytes to port 7502", "0 .json", "--sensor-file"});
+                  {"o.pcap", "of 1024 bytes to port 7502", "no metadata of an Ouster", "--sensor-file"});
   const auto refused = [&](const std::string& json, std::initializer_list<std::string_view> parts) {
     SourceOptions options;
     options.sensor_file = folder.write("m.json", json).string();
     expect_io_error([&] { open_scan_source(file, options); }, parts);
   };
-  refused("{", {"m.json", "no JSON object"});
+  refused("{", {"m.json", "not a JSON object"});
   refused("{}", {"m.json", "lidar_mode"});
   refused(R"({"lidar_mode": "1024x0"})", {"lidar_mode", "'1024x0'"});
   refused(R"({"lidar_mode": "1024x10"})", {"beam_altitude_angles"});
   refused(R"({"lidar_mode": "1024x10", "beam_altitude_angles": [1], "beam_azimuth_angles": []})", {"0 azimuths"});
   refused(R"({"lidar_mode": "1024x10", "beam_altitude_angles": ["a"], "beam_azimuth_angles": [1]})", {"no number"});
   refused(R"({"lidar_mode": "1024x10", "data_format": {"udp_profile_lidar": "NEW"}})", {"'NEW'"});
-  refused(ouster_metadata(kShapes[0]), {"packets of 1088 bytes", "1024 bytes to port 7502"});
+  refused(ouster_metadata(kOusterShapes[0]), {"packets of 1088 bytes", "1024 bytes to port 7502"});
+}
+
+TEST(OusterTest, OfSeveralMetadataTheOneOfItsName) {
+  const TempDir folder;
+  const OusterShape& shape = kOusterShapes[2];
+  const auto file = folder.write("drive_7_part.pcap", ouster_drive(shape, 70).text());
+  const auto sweeps = [&] { return sweeps_of(*open_scan_source(file)).size(); };
+  folder.write("digest.json", R"({"hashes": []})");  // other JSON does not count
+  folder.write("a.json", ouster_metadata(shape));
+  EXPECT_EQ(sweeps(), 1U);
+  folder.write("b.json", ouster_metadata(kOusterShapes[0]));
+  expect_io_error([&] { open_scan_source(file); },
+                  {"2 metadata files", "does not say which: a.json, b.json", "--sensor-file"});
+  folder.write("drive.json", ouster_metadata(kOusterShapes[1]));
+  folder.write("drive_7.json", ouster_metadata(shape));  // the longer beginning of the recording's name
+  EXPECT_EQ(sweeps(), 1U);
+  folder.write("drive_7_part_metadata.json", ouster_metadata(kOusterShapes[0]));
+  expect_io_error([&] { open_scan_source(file); }, {"drive_7_part_metadata.json says"});
+  folder.write("drive_7_part_0.json", ouster_metadata(shape));
+  expect_io_error([&] { open_scan_source(file); }, {"6 metadata files", "does not say which"});
+  folder.write("drive_7_part.json", ouster_metadata(shape));
+  EXPECT_EQ(sweeps(), 1U);
 }
 
 // --- captures -----------------------------------------------------------------------------------------------------
@@ -315,7 +295,7 @@ TEST(UdpReaderTest, LinkTypesAndVlans) {
   EXPECT_EQ(datagrams(folder, Capture(101).frame(kStamp, tcp).frame(kStamp, longer).frame(kStamp, "").text()), 0U);
   expect_io_error([&] { datagrams(folder, Capture(147).text()); }, {"u.pcap", "link type 147"});
   expect_io_error([&] { datagrams(folder, "no capture at all, nothing of the kind"); }, {"u.pcap", "libpcap says"});
-  expect_io_error([&] { open_scan_source(folder.write("e.pcap", Capture().text())); }, {"no UDP datagrams"});
+  expect_io_error([&] { open_scan_source(folder.write("e.pcap", Capture().text())); }, {"no packets"});
 }
 
 // One packet of a pcapng file whose clock counts whole seconds: 64 bits of them.
@@ -360,8 +340,9 @@ TEST(PacketSourceTest, HostileBytes) {
   std::mt19937 random(3);
   for (const bool velodyne : {true, false}) {
     const TempDir folder;
-    folder.write("o.json", ouster_metadata(kShapes[0]));
-    const std::string whole = velodyne ? velodyne_drive(0x22, 2.5).text() : ouster_drive(kShapes[0], 100, 400).text();
+    folder.write("o.json", ouster_metadata(kOusterShapes[0]));
+    const std::string whole =
+        velodyne ? velodyne_drive(0x22, 2.5).text() : ouster_drive(kOusterShapes[0], 100, 400).text();
     for (int round = 0; round < 60; ++round) {
       std::string bytes = whole;
       if (round % 3 == 0) bytes.resize(random() % bytes.size());
@@ -382,8 +363,8 @@ TEST(PacketSourceTest, HostileBytes) {
 TEST(PacketSourceTest, OusterMetadataTurnedOver) {
   std::mt19937 random(4);
   const TempDir folder;
-  const auto file = folder.write("o.pcap", ouster_drive(kShapes[1], 70).text());
-  const std::string whole = ouster_metadata(kShapes[1]);
+  const auto file = folder.write("o.pcap", ouster_drive(kOusterShapes[1], 70).text());
+  const std::string whole = ouster_metadata(kOusterShapes[1]);
   for (int round = 0; round < 300; ++round) {
     std::string json = whole;
     for (int k = 0; k < 1 + round % 3; ++k) json[random() % json.size()] = static_cast<char>(' ' + random() % 90);

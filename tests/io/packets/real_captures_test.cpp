@@ -137,13 +137,26 @@ TEST_F(RealFiles, OusterPoses) {
   EXPECT_NEAR(pose.translation().z(), -0.001, 0.05);
 }
 
-TEST_F(RealFiles, PacketsWithoutPointClouds) {
-  test::expect_io_error([] { open_scan_source(file("db3/velodyne_vlp16")); },
-                        {"velodyne_packets (velodyne_msgs/msg/VelodyneScan, 4 messages)", "PointCloud2"});
+// Recordings of the drivers' packets: the same sensors as Nebula's clouds above, and a bag of Ouster's own.
+TEST_F(RealFiles, PacketsInRecordings) {
+  const auto vlp16 = open_scan_source(file("db3/velodyne_vlp16"));
+  expect_turns(*vlp16, 3, "rosbag2 (sqlite3), Velodyne VLP-16, of two returns the last", 0.1);
+  EXPECT_EQ(vlp16->info().topic, "/velodyne_packets");
+  const auto vlp32 = open_scan_source(file("db3/velodyne_vlp32/1713492677464078412_0.db3"));
+  expect_turns(*vlp32, 4, "rosbag2 (sqlite3), Velodyne VLP-32C", 0.1);
 #ifdef RILO_HAS_ROSBAG
-  test::expect_io_error([] { open_scan_source(file("bag1/ouster_512x10_raw_packets.bag")); },
-                        {"ouster_512x10_raw_packets.bag", "a topic of type sensor_msgs/PointCloud2"});
+  const auto ouster = open_scan_source(file("bag1/ouster_512x10_raw_packets.bag"));
+  expect_turns(*ouster, 1, "ROS 1 bag, Ouster OS-0-128, RNG15_RFL8_NIR8", 0.1);
+  EXPECT_EQ(ouster->info().topic, "/os_node0/lidar_packets");
 #endif
+}
+
+// Of six .json beside it the one whose name begins the recording's.
+TEST_F(RealFiles, OusterMetadataByName) {
+  const auto source = open_scan_source(file("pcap/ouster/OS-1-128_v2.3.0_1024x10_lb_n3.pcap"));
+  EXPECT_EQ(sweeps_of(*source).size(), 3U);
+  test::expect_io_error([] { open_scan_source(file("pcap/ouster/OS-1-64_1024x10_fw20.pcap")); },
+                        {"metadata files of an Ouster beside it", "OS-1-64_sensor_config_reduced.json"});
 }
 
 TEST_F(RealFiles, APointCloud2InCdr) {

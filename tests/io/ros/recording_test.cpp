@@ -178,7 +178,7 @@ TEST(RecordingTest, SeveralTopics) {
   for (const std::size_t chunk : {std::size_t{0}, std::size_t{1}}) {
     const fs::path file = folder.write("two.mcap", test::mcap_bytes(topics, messages, {"zstd", chunk, true, "cdr"}));
     expect_io_error([&] { open_scan_source(file); },
-                    {"two.mcap", "2 PointCloud2 topics", "/front (sensor_msgs/msg/PointCloud2, 1 messages)",
+                    {"two.mcap", "2 topics of point clouds", "/front (sensor_msgs/msg/PointCloud2, 1 messages)",
                      "/rear (sensor_msgs/msg/PointCloud2, 2 messages)", "--topic"});
     SourceOptions options;
     options.topic = "/front";
@@ -189,7 +189,8 @@ TEST(RecordingTest, SeveralTopics) {
     options.topic = "/none";
     expect_io_error([&] { open_scan_source(file, options); }, {"'/none'", "/imu (sensor_msgs/msg/Imu, 0 messages)"});
     options.topic = "/imu";
-    expect_io_error([&] { open_scan_source(file, options); }, {"PointCloud2 messages on the topic '/imu'"});
+    expect_io_error([&] { open_scan_source(file, options); },
+                    {"the topic '/imu' with messages of type sensor_msgs/PointCloud2"});
   }
   const fs::path none = folder.write("none.mcap", test::mcap_bytes({{"/imu", "sensor_msgs/msg/Imu"}}, {}, {}));
   expect_io_error([&] { open_scan_source(none); }, {"/imu", "a topic of type sensor_msgs/PointCloud2"});

@@ -74,6 +74,11 @@ TEST(TrajectoryBagTest, OdometryAndTransformsOfEverySweep) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(number(7 + 7 * i), diagonal[i], 1e-9) << i;
   EXPECT_EQ(number(43), 4);
   EXPECT_EQ(number(48), 0.3);
+  EXPECT_EQ(number(49), 1e6);  // no pose before: the velocity is unknown
+  const std::string second = bytes_of_message(*std::next(odometry.begin()));
+  const std::array<double, 6> of_velocity = {1000, 2000, 3000, 100, 200, 300};  // over the step of 0.1 s
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(at<double>(second, kPoseAt + 8 * (49 + 7 * i)), of_velocity[i], 1e-6) << i;
 
   rosbag::View transforms(bag, rosbag::TopicQuery("/tf"));
   ASSERT_EQ(transforms.size(), 2U);

@@ -2,6 +2,7 @@
 // @mcap/core (environment variable RILO_NODE_MODULES, see mcap_core_test.cpp).
 #include "rilo/io/trajectory_recording.hpp"
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
 
@@ -107,11 +108,43 @@ TEST(TrajectoryRecordingTest, OdometryAndTransformsOfEverySweep) {
   EXPECT_NEAR(covariance(5), 3, 1e-9);
   EXPECT_EQ(number_at(body, kPose + 344), 4);         // linear velocity, sensor frame
   EXPECT_EQ(number_at(body, kPose + 344 + 24), 0.1);  // angular
+  // Of the velocity over the step of 0.1 s, about the sensor's axes; unknown where there was no pose before.
+  const auto of_velocity = [](std::string_view message, std::size_t i) {
+    return number_at(message, 4 + kPose + 344 + 48 + 8 * 7 * i);
+  };
+  const std::array<double, 6> variances{1000, 2000, 3000, 100, 200, 300};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(of_velocity(odometry[1].bytes, i), variances[i], 1e-6) << i;
+    EXPECT_EQ(of_velocity(odometry[0].bytes, i), 1e6) << i;
+  }
 
   const auto tf = messages_of(folder.path() / "run.mcap", 2);
   ASSERT_EQ(tf.size(), 3U);
   // Count, stamp, "odom", padding, "lidar", padding to 8, seven numbers.
   EXPECT_EQ(tf[0].bytes.size(), 4U + 4 + 8 + 9 + 3 + 10 + 6 + 8 * 7);
+}
+
+TEST(TrajectoryRecordingTest, StampsThatRosDoesNotKnow) {
+  const TempDir folder;
+  auto results = some_results(3);
+  results[0].stamp_ns = -594;
+  results[1].stamp_ns = 0;
+  results[2].stamp_ns = std::int64_t{1} << 62;
+  write_mcap(folder.path() / "run.mcap", results);
+  for (const std::uint16_t channel : {std::uint16_t{1}, std::uint16_t{2}}) {
+    const auto messages = messages_of(folder.path() / "run.mcap", channel);
+    ASSERT_EQ(messages.size(), 3U);
+    const std::size_t at = channel == 1 ? 4 : 8;  // TFMessage: behind the number of transforms
+    std::vector<std::int32_t> seconds;
+    for (const Written& message : messages) {
+      EXPECT_GE(message.stamp_ns, 0);
+      std::array<std::int32_t, 2> stamp{};
+      std::memcpy(stamp.data(), message.bytes.data() + at, sizeof(stamp));
+      seconds.push_back(stamp[0]);
+      EXPECT_EQ(stamp[1], message.stamp_ns == 0 ? 0 : 999'999'999);
+    }
+    EXPECT_EQ(seconds, (std::vector<std::int32_t>{0, 0, 0x7FFFFFFF}));
+  }
 }
 
 TEST(TrajectoryRecordingTest, ManyChunksAndNone) {

@@ -1,0 +1,91 @@
+// One run: sweeps of a source through the odometry, to observers and a result.
+#pragma once
+
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rilo/geometry/trajectory.hpp"
+#include "rilo/io/scan_source.hpp"
+#include "rilo/odometry/odometry.hpp"
+#include "rilo/odometry/odometry_config.hpp"
+#include "rilo/odometry/sweep_result.hpp"
+#include "rilo/session/run_error.hpp"
+#include "rilo/session/session_observer.hpp"
+
+namespace rilo {
+
+/// The first pass must find the elevation offset within that many sweeps: later, the beginning is a small part of the
+/// run.
+inline constexpr std::size_t kRestartWithinSweeps = 200;
+
+struct SessionOptions {
+  OdometryConfig config;
+  std::size_t start = 0;  ///< sweeps skipped at the beginning of the data
+  std::size_t count = 0;  ///< sweeps to run at most; 0: all
+  /// Single pass, as in live operation. Otherwise the run starts over, once, with the elevation offset of the sensor as
+  /// soon as that is certain, so that the first sweeps have its correction, too.
+  bool one_pass = false;
+  bool keep_intensities = false;      ///< Odometry::keep_intensities
+  std::function<bool()> interrupted;  ///< asked before every sweep; true ends the run there. Empty: never
+};
+
+/// What a run gives. All of it is filled whatever ended the run.
+struct SessionResult {
+  std::vector<SweepResult> results;  ///< one per registered sweep, in order
+  std::vector<std::size_t> indices;  ///< place of each sweep in the data
+  SourceInfo source;                 ///< at the end of the run
+  OdometryConfig config;             ///< that led to `results`: with the elevation offset when the run started over
+  int threads = 0;                   ///< used by the odometry
+  std::optional<std::size_t> started_over_after;  ///< sweeps of the first pass, when there was a second
+  PoseInstant pose_instant = PoseInstant::kMid;   ///< of the sweep, that the poses refer to
+  double wall_s = 0;                              ///< duration of the run, both passes
+  double peak_rss_mb = 0;                         ///< largest memory of this process so far
+  bool interrupted = false;                       ///< by SessionOptions::interrupted
+  std::exception_ptr failure;                     ///< that ended the run; null: none
+
+  Trajectory trajectory() const;
+};
+
+/// Opens the data from the beginning; called again for a second pass.
+using OpenSource = std::function<std::unique_ptr<ScanSource>()>;
+
+/// How many of `source`'s sweeps `start` and `count` leave, when that is known.
+std::optional<std::size_t> sweeps_to_do(const ScanSource& source, std::size_t start, std::size_t count);
+
+/// One run, observed. Use once; not thread-safe.
+class Session {
+ public:
+  /// Opens the source. @throws what `open` throws; std::invalid_argument when a value of the configuration is out of
+  /// range.
+  Session(OpenSource open, SessionOptions options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Observers are called in the order in which they were added; they must outlive run().
+  void add(SessionObserver& observer);
+
+  const ScanSource& source() const;
+
+  /// Runs to the end of the data, `count`, the interrupt or an error, which stands in the result: what was done before
+  /// it is kept. Data without a sweep to run are an error (RunError, kBadData).
+  SessionResult run();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Runs a recording: opens `data` (see open_scan_source) and runs it in two passes unless options.one_pass. The poses
+/// are those of `rilo run` with the same options, to the last bit.
+/// @throws what ended the run: IoError, RunError, std::invalid_argument.
+SessionResult run_recording(const std::filesystem::path& data, const SessionOptions& options = {},
+                            const SourceOptions& source = {});
+
+}  // namespace rilo

@@ -1,0 +1,48 @@
+// What happens during a run, for whoever wants to know.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "rilo/cloud/sweep.hpp"
+#include "rilo/odometry/odometry.hpp"
+#include "rilo/odometry/sweep_result.hpp"
+
+namespace rilo {
+
+/// A sweep that has just been registered. The references are valid during the call.
+struct RegisteredSweep {
+  std::size_t index;          ///< place in the data (ScanSource::current_index)
+  const Sweep& sweep;         ///< as read
+  const SweepResult& result;  ///< its pose and statistics
+  const Odometry& odometry;   ///< right after it: last_map_points() are those of this sweep
+};
+
+/// The second pass begins: everything before is forgotten.
+struct Restart {
+  std::size_t after_sweeps;     ///< registered in the first pass
+  double elevation_offset_deg;  ///< found there, applied from the first sweep of the second pass on
+};
+
+/// Is called by Session::run(), on its thread, in the order in which things happen. An exception ends the run and
+/// stands in SessionResult::failure.
+class SessionObserver {
+ public:
+  virtual ~SessionObserver() = default;
+
+  /// A sweep was read and is registered next. `name`: for messages (ScanSource::current_name).
+  virtual void on_read(const Sweep& /*sweep*/, const std::string& /*name*/) {}
+  virtual void on_registered(const RegisteredSweep& /*sweep*/) {}
+  /// A sentence for the user, each once.
+  virtual void on_warning(const std::string& /*warning*/) {}
+  virtual void on_restart(const Restart& /*restart*/) {}
+  /// The run ended, whatever ended it.
+  virtual void on_end(const Odometry& /*odometry*/) {}
+
+ protected:
+  SessionObserver() = default;
+  SessionObserver(const SessionObserver&) = default;
+  SessionObserver& operator=(const SessionObserver&) = default;
+};
+
+}  // namespace rilo

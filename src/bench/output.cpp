@@ -1,0 +1,67 @@
+#include "bench/output.hpp"
+
+#include "bench/baseline.hpp"
+#include "bench/paired.hpp"
+#include "bench/paper.hpp"
+#include "bench/repeats.hpp"
+#include "console/text.hpp"
+#include "rilo/io/atomic_file.hpp"
+#include "rilo/io/io_error.hpp"
+
+namespace rilo {
+
+namespace {
+
+std::vector<TitledTable> paper_tables(const BenchOutput& output, MeasuredColumns measured) {
+  switch (output.tables) {
+    case PaperTables::kKitti:
+      return kitti_tables(output.bench.cells, measured);
+    case PaperTables::kM2dgr:
+      return m2dgr_tables(output.bench.cells);
+    case PaperTables::kNone:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+BenchOutput bench_output(const BenchStore& store) {
+  std::vector<BenchCell> cells;
+  cells.reserve(store.cells.size());
+  for (const StoredCell& stored : store.cells) cells.push_back(stored.cell);
+  BenchOutput output{store.bench, store.tables, nullptr, {}};
+  output.bench.cells = combined(cells);
+  return output;
+}
+
+std::vector<TitledTable> all_tables(const BenchOutput& output, MeasuredColumns measured) {
+  std::vector<TitledTable> tables = bench_tables(output.bench.cells, measured);
+  const auto paired = paired_tables(output.bench.cells);
+  tables.insert(tables.end(), paired.begin(), paired.end());
+  const auto paper = paper_tables(output, measured);
+  tables.insert(tables.end(), paper.begin(), paper.end());
+  if (!output.baseline.is_null()) {
+    tables.push_back(baseline_table(output.bench.cells, output.baseline, output.baseline_file));
+  }
+  return tables;
+}
+
+std::string bench_markdown(const BenchOutput& output, MeasuredColumns measured) {
+  return "# " + output.bench.command_line + "\n\n" + markdown_text(all_tables(output, measured));
+}
+
+void write_results(const std::filesystem::path& folder, const BenchOutput& output, const BenchStore& store) {
+  try {
+    write_atomically(folder / "results.json", json_text(results_json(output.bench)));
+    write_atomically(folder / "results.csv", bench_csv(output.bench.cells).csv());
+    const TextTable paired = paired_csv(output.bench.cells);
+    if (!paired.rows.empty()) write_atomically(folder / "paired.csv", paired.csv());
+    write_atomically(folder / "results.md", bench_markdown(output));
+    write_store(folder / kStoreName, store);
+  } catch (const IoError& error) {
+    throw RunError(RunErrorKind::kCannotWrite, error.what());
+  }
+}
+
+}  // namespace rilo

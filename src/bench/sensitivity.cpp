@@ -1,0 +1,101 @@
+#include "bench/sensitivity.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "rilo/config/odometry_keys.hpp"
+
+namespace rilo {
+
+namespace {
+
+/// The last value of a key counts, as on the command line; what is no "key=value" stands as a key of its own.
+std::map<std::string, std::string> map_of(const std::vector<std::string>& settings) {
+  std::map<std::string, std::string> result;
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    result[setting.substr(0, equals)] = equals == std::string::npos ? "" : setting.substr(equals + 1);
+  }
+  return result;
+}
+
+std::optional<double> number_of(std::string_view text) {
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && stop == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+std::optional<double> default_of(const std::string& key) {
+  OdometryConfig config;
+  const ConfigKeys keys = odometry_keys(config);
+  const ConfigKey* found = keys.find(key);
+  return found == nullptr ? std::nullopt : number_of(found->value());
+}
+
+struct Change {
+  std::string key;
+  double value = 0;
+};
+
+/// The one numeric key that `other` sets on top of `base`, or sets otherwise.
+std::optional<Change> single_change(const std::map<std::string, std::string>& base,
+                                    const std::map<std::string, std::string>& other) {
+  std::optional<Change> change;
+  for (const auto& [key, text] : other) {
+    const auto known = base.find(key);
+    if (known != base.end() && known->second == text) continue;
+    const auto value = number_of(text);
+    if (change || !value) return std::nullopt;
+    change = Change{key, *value};
+  }
+  const bool all_kept =
+      std::all_of(base.begin(), base.end(), [&](const auto& entry) { return other.contains(entry.first); });
+  return all_kept ? change : std::nullopt;
+}
+
+}  // namespace
+
+void add_settings(const std::string& configuration, const nlohmann::json& cell,
+                  std::vector<ConfigurationSettings>& all) {
+  const bool known =
+      std::any_of(all.begin(), all.end(), [&](const auto& entry) { return entry.first == configuration; });
+  if (known) return;
+  all.emplace_back(configuration, std::vector<std::string>());
+  if (!cell.contains("settings") || !cell["settings"].is_array()) return;
+  for (const nlohmann::json& setting : cell["settings"]) {
+    if (setting.is_string()) all.back().second.push_back(setting);
+  }
+}
+
+std::vector<SensitivitySeries> find_sensitivities(const std::vector<ConfigurationSettings>& all) {
+  constexpr std::size_t kLeastPoints = 3;
+  std::map<std::string, SensitivitySeries> best;  // by key: the base with the most values
+  for (const auto& [name, settings] : all) {
+    const auto base = map_of(settings);
+    std::map<std::string, SensitivitySeries> found;
+    for (const auto& [other, other_settings] : all) {
+      const auto change = other == name ? std::nullopt : single_change(base, map_of(other_settings));
+      if (change) found[change->key].points.emplace_back(change->value, other);
+    }
+    for (auto& [key, series] : found) {
+      const auto own = base.find(key);
+      const auto value = own != base.end() ? number_of(own->second) : default_of(key);
+      if (!value) continue;
+      series.points.emplace_back(*value, name);
+      std::sort(series.points.begin(), series.points.end());
+      series.key = key;
+      series.base = name;
+      if (series.points.size() >= kLeastPoints && series.points.size() > best[key].points.size()) best[key] = series;
+    }
+  }
+  std::vector<SensitivitySeries> result;
+  for (auto& [key, series] : best) {
+    if (!series.points.empty()) result.push_back(std::move(series));
+  }
+  return result;
+}
+
+}  // namespace rilo

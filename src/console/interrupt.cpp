@@ -1,0 +1,40 @@
+#include "console/interrupt.hpp"
+
+#include <csignal>
+
+namespace rilo {
+
+namespace {
+
+volatile std::sig_atomic_t received = 0;
+
+extern "C" void on_signal(int number) { received = number; }
+
+void install(int number) {
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  // SA_RESETHAND: a second Ctrl-C ends a program that hangs.
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  sigaction(number, &action, nullptr);
+}
+
+}  // namespace
+
+InterruptGuard::InterruptGuard() {
+  received = 0;
+  install(SIGINT);
+  install(SIGTERM);
+  // A reader of our messages that goes away (`| head`) must not take the results with it.
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+InterruptGuard::~InterruptGuard() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGPIPE, SIG_DFL);
+}
+
+int InterruptGuard::signal() { return received; }
+
+}  // namespace rilo

@@ -1,0 +1,34 @@
+// Text for people and for files.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace rilo {
+
+/// Indented; bytes of file names that are no UTF-8 are replaced rather than refused.
+std::string json_text(const nlohmann::json& json);
+
+/// `text` with such bytes replaced.
+std::string valid_utf8(const std::string& text);
+
+/// null for a figure that is not there.
+nlohmann::json or_null(const std::optional<double>& value);
+
+/// Within single quotes, for sh, bash and zsh.
+std::string shell_quoted(const std::string& word);
+
+/// The command line as one would type it.
+std::string command_line(int argc, const char* const* argv);
+
+/// "1 sweep", "2 sweeps".
+std::string counted(std::size_t count, const std::string& thing);
+
+/// Last part of a path, also when it ends in a slash.
+std::string last_name(const std::filesystem::path& path);
+
+}  // namespace rilo

@@ -1,0 +1,44 @@
+#include "io/ros/livox_message.hpp"
+
+#include <utility>
+
+#include "io/ros/message_cursor.hpp"
+
+namespace rilo::detail {
+
+LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
+                         const std::string& part) {
+  constexpr std::size_t kPointBytes = 19;  // without what CDR puts between two of them
+  constexpr std::size_t kReserved = 3;
+  const BytesOrigin origin{file, part};
+  MessageCursor cursor(bytes, encoding, origin);
+  MessageHeaderFields header = take_header(cursor, encoding);
+  LivoxMessage message;
+  message.stamp_ns = header.stamp_ns;
+  message.frame_id = std::move(header.frame_id);
+  cursor.take<std::uint64_t>("timebase");  // the stamp once more, or the sensor's own clock where it is not set
+  cursor.take<std::uint32_t>("point_num");
+  cursor.take<std::uint8_t>("lidar_id");
+  cursor.take_bytes(kReserved, "rsvd");
+  const std::size_t count = take_count(cursor, kPointBytes, "points", "Livox CustomMsg");
+  RawTimes times{"offset_time", ScalarType::kUint32, {}, {}};
+  times.integers.reserve(count);
+  RawCloud& cloud = message.cloud;
+  cloud.points.reserve(count);
+  cloud.intensities.reserve(count);
+  cloud.rings.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    times.integers.push_back(cursor.take<std::uint32_t>("offset_time"));
+    const auto x = cursor.take<float>("x");
+    const auto y = cursor.take<float>("y");
+    const auto z = cursor.take<float>("z");
+    cloud.points.emplace_back(x, y, z);
+    cloud.intensities.push_back(cursor.take<std::uint8_t>("reflectivity"));
+    cursor.take<std::uint8_t>("tag");
+    cloud.rings.push_back(cursor.take<std::uint8_t>("line"));
+  }
+  cloud.times = std::move(times);
+  return message;
+}
+
+}  // namespace rilo::detail

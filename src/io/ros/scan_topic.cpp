@@ -1,0 +1,110 @@
+#include "io/ros/scan_topic.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "io/text.hpp"
+#include "rilo/io/io_error.hpp"
+
+namespace rilo::detail {
+namespace {
+
+bool is_known_encoding(const RecordedTopic& topic) { return topic.encoding == "ros1" || topic.encoding == "cdr"; }
+
+// ROS 2 puts "msg" between package and name.
+std::string without_msg(const std::string& type) {
+  const std::size_t at = type.find("/msg/");
+  return at == std::string::npos ? type : type.substr(0, at) + type.substr(at + 4);
+}
+
+std::string list_of(const std::vector<RecordedTopic>& topics) {
+  std::string text;
+  for (const RecordedTopic& topic : topics) {
+    text += (text.empty() ? "" : ", ") + topic.name + " (" + topic.type +
+            (is_known_encoding(topic) ? "" : ", encoding " + in_quotes(topic.encoding)) +
+            (topic.messages ? ", " + std::to_string(*topic.messages) + " messages)" : ")");
+  }
+  return text.empty() ? "no topics" : text;
+}
+
+bool has_name(const RecordedTopic& topic, const std::string& wanted) {
+  return topic.name == wanted || topic.name == "/" + wanted || "/" + topic.name == wanted;
+}
+
+// An Ouster's driver records the packets of the IMU as the same type.
+bool is_imu(const RecordedTopic& topic) {
+  return scan_form(topic) == ScanForm::kOusterPackets && lower_case(topic.name).find("imu") != std::string::npos;
+}
+
+template <typename Wanted>
+std::vector<RecordedTopic> topics_with(const std::vector<RecordedTopic>& topics, Wanted&& wanted) {
+  std::vector<RecordedTopic> found;
+  std::copy_if(topics.begin(), topics.end(), std::back_inserter(found), wanted);
+  return found;
+}
+
+constexpr const char* kKnownTypes =
+    "sensor_msgs/PointCloud2, Livox CustomMsg, velodyne_msgs/VelodyneScan or Ouster PacketMsg";
+
+}  // namespace
+
+ScanForm scan_form(const RecordedTopic& topic) {
+  constexpr std::array<std::pair<std::string_view, ScanForm>, 8> kForms{{
+      {"sensor_msgs/PointCloud2", ScanForm::kPointCloud2},
+      {"livox_ros_driver/CustomMsg", ScanForm::kLivoxCustom},
+      {"livox_ros_driver2/CustomMsg", ScanForm::kLivoxCustom},
+      {"livox_interfaces/CustomMsg", ScanForm::kLivoxCustom},
+      {"velodyne_msgs/VelodyneScan", ScanForm::kVelodynePackets},
+      {"ouster_ros/PacketMsg", ScanForm::kOusterPackets},
+      {"ouster_msgs/PacketMsg", ScanForm::kOusterPackets},
+      {"ouster_sensor_msgs/PacketMsg", ScanForm::kOusterPackets},
+  }};
+  if (!is_known_encoding(topic)) return ScanForm::kNone;
+  const std::string type = without_msg(topic.type);
+  for (const auto& [name, form] : kForms) {
+    if (name == type) return form;
+  }
+  return ScanForm::kNone;
+}
+
+bool is_packets(ScanForm form) { return form == ScanForm::kVelodynePackets || form == ScanForm::kOusterPackets; }
+
+bool is_text(const RecordedTopic& topic) {
+  return is_known_encoding(topic) && without_msg(topic.type) == "std_msgs/String";
+}
+
+RecordedTopic choose_topic(const std::filesystem::path& path, const std::vector<RecordedTopic>& topics,
+                           const std::string& wanted) {
+  if (!wanted.empty()) {
+    const auto named = topics_with(topics, [&](const RecordedTopic& topic) {
+      return has_name(topic, wanted) && scan_form(topic) != ScanForm::kNone;
+    });
+    if (named.size() == 1) return named[0];
+    throw IoError({path, "", list_of(topics),
+                   "the topic " + in_quotes(wanted) + " with messages of type " + kKnownTypes,
+                   "Name one of these with --topic, or leave it out when only one holds scans"});
+  }
+  auto found = topics_with(topics, [](const RecordedTopic& topic) {
+    const ScanForm form = scan_form(topic);
+    return form == ScanForm::kPointCloud2 || form == ScanForm::kLivoxCustom;
+  });
+  if (found.size() > 1) {
+    throw IoError({path, "", std::to_string(found.size()) + " topics of point clouds: " + list_of(found), "one",
+                   "Choose one with --topic"});
+  }
+  if (found.empty()) {
+    found =
+        topics_with(topics, [](const RecordedTopic& topic) { return is_packets(scan_form(topic)) && !is_imu(topic); });
+  }
+  if (found.size() == 1) return found[0];
+  if (found.size() > 1) {
+    throw IoError({path, "", std::to_string(found.size()) + " topics of LiDAR packets: " + list_of(found), "one",
+                   "Choose one with --topic"});
+  }
+  throw IoError({path, "", list_of(topics),
+                 std::string("a topic of type ") + kKnownTypes + " in ROS 1's or CDR encoding",
+                 "Record the sensor's point clouds (sensor_msgs/PointCloud2)"});
+}
+
+}  // namespace rilo::detail

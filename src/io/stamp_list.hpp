@@ -1,0 +1,26 @@
+// Files with one stamp per line.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace rilo::detail {
+
+/// "2011-09-26 13:02:25.951199337", taken as UTC, in ns since 1970.
+std::optional<std::int64_t> parse_date(std::string_view text);
+
+/// Whole stamps as data sets write them: 19 digits are ns, 16 are µs, decimals with 9 digits or more before the point
+/// are seconds.
+std::optional<std::int64_t> parse_long_stamp(std::string_view text);
+
+/// Dates. Blank lines are passed over. @throws IoError with the line.
+std::vector<std::int64_t> read_dates(const std::filesystem::path& file);
+
+/// Dates, long stamps or seconds. Blank lines and lines that begin with # are passed over. @throws IoError with the
+/// line.
+std::vector<std::int64_t> read_stamp_list(const std::filesystem::path& file);
+
+}  // namespace rilo::detail

@@ -1,0 +1,137 @@
+#include "odometry/motion_tracker.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "odometry/motion_bounds.hpp"
+#include "rilo/odometry/motion_prediction.hpp"
+#include "rilo/odometry/motion_prior.hpp"
+
+namespace rilo {
+
+namespace {
+constexpr std::size_t kRememberedPoses = 3;  // (III-B)
+constexpr double kStaleSteps = 3.0;          // after a loss of so many steps' time the motion before says nothing
+}  // namespace
+
+MotionState MotionTracker::predicted(double sigma_th_m) const {
+  return {predict_pose(past_, now_ns_, sigma_th_m, prediction_config_), trusted_state_.twist};
+}
+
+std::optional<MotionState> MotionTracker::predicted_from_claim() const {
+  if (!claim_) {
+    return std::nullopt;
+  }
+  const double dt_s = seconds_since(claim_->at_ns);
+  return MotionState{claim_->T_odom_lidar * se3_exp(dt_s * trusted_state_.twist), trusted_state_.twist};
+}
+
+Vector6d MotionTracker::implied_twist(const SE3& T_odom_lidar) const {
+  const SE3 motion = trusted_state_.T_odom_lidar.inverse() * T_odom_lidar;
+  const double dt_s = since_trusted_s();
+  if (!possible_motion(motion, dt_s, step_, step_s_, bounds_)) {
+    return trusted_state_.twist;
+  }
+  return se3_log(motion) / dt_s;
+}
+
+MotionPrior MotionTracker::prior(const std::optional<MotionState>& refuted) const {
+  MotionPriorConfig config = prior_config_;
+  if (degenerate_) {
+    // Where nothing is seen, each sweep makes the prior weaker, and at last the least noise or bias outweighs it.
+    config.acceleration_m_s2 *= prior_config_.unseen_share;
+    config.angular_acceleration_rad_s2 *= prior_config_.unseen_share;
+  }
+  const double dt_s = since_trusted_s();
+  if (refuted) {
+    return motion_prior(*refuted, unknown_velocity_covariance(), dt_s, config);
+  }
+  return motion_prior(expected_motion(trusted_state_, dt_s), velocity_covariance_, dt_s, config);
+}
+
+MotionVerdict MotionTracker::weigh(const SE3& T_odom_lidar) const {
+  const SE3 motion = trusted_state_.T_odom_lidar.inverse() * T_odom_lidar;
+  if (possible_motion(motion, since_trusted_s(), step_, step_s_, bounds_)) {
+    return MotionVerdict::kPossible;
+  }
+  return agrees_with_claim(T_odom_lidar) ? MotionVerdict::kJump : MotionVerdict::kImpossible;
+}
+
+bool MotionTracker::agrees_with_claim(const SE3& T_odom_lidar) const {
+  if (!claim_) {
+    return false;
+  }
+  const SE3 motion = claim_->T_odom_lidar.inverse() * T_odom_lidar;
+  const double dt_s = seconds_since(claim_->at_ns);
+  return (step_ && possible_motion(motion, dt_s, step_, step_s_, bounds_)) ||
+         (claim_->step && possible_motion(motion, dt_s, claim_->step, claim_->step_s, bounds_));
+}
+
+void MotionTracker::begin(const MotionState& state) {
+  state_ = trusted_state_ = state;
+  velocity_covariance_ = unknown_velocity_covariance();
+  past_ = {{now_ns_, state.T_odom_lidar}};
+  step_.reset();
+  claim_.reset();
+  lost_ = false;
+  degenerate_ = false;
+}
+
+Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdict, bool degenerate) {
+  const double dt_s = since_trusted_s();
+  const Vector6d velocity_before = trusted_state_.twist;
+  const SE3 motion = trusted_state_.T_odom_lidar.inverse() * icp.state.T_odom_lidar;
+  state_ = icp.state;
+  state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
+  trusted_state_ = state_;
+  if (verdict == MotionVerdict::kJump) {
+    trusted_state_.twist = velocity_before;
+  }
+  if (lost_ && past_.size() >= 2) {
+    // As if the sensor had come here at the velocity from before.
+    const double step_s = static_cast<double>(past_.back().stamp_ns - past_[past_.size() - 2].stamp_ns) * 1e-9;
+    const SE3 step = past_[past_.size() - 2].T_odom_lidar.inverse() * past_.back().T_odom_lidar;
+    past_ = {{now_ns_ - std::int64_t(step_s * 1e9), state_.T_odom_lidar * step.inverse()}};
+  }
+  past_.push_back({now_ns_, state_.T_odom_lidar});
+  if (past_.size() > kRememberedPoses) {
+    past_.erase(past_.begin());
+  }
+  if (lost_) {
+    velocity_covariance_ = unknown_velocity_covariance();
+    if (verdict == MotionVerdict::kJump) {
+      step_ = claim_->T_odom_lidar.inverse() * state_.T_odom_lidar;
+      step_s_ = seconds_since(claim_->at_ns);
+    } else if (dt_s > kStaleSteps * step_s_) {
+      step_.reset();
+    }
+  } else {
+    step_ = motion;
+    step_s_ = dt_s;
+    const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());
+    velocity_covariance_ = covariance.bottomRightCorner<6, 6>();
+  }
+  claim_.reset();
+  lost_ = false;
+  degenerate_ = degenerate;
+  return motion.translation();
+}
+
+void MotionTracker::lose(const MotionState& predicted, const std::optional<SE3>& claim) {
+  state_ = predicted;
+  velocity_covariance_ = unknown_velocity_covariance();
+  lost_ = true;
+  if (!claim) {
+    claim_.reset();
+    return;
+  }
+  Claim next{*claim, now_ns_, std::nullopt, 0.0};
+  if (claim_) {
+    next.step = claim_->T_odom_lidar.inverse() * *claim;
+    next.step_s = seconds_since(claim_->at_ns);
+  }
+  claim_ = next;
+}
+
+void MotionTracker::reset() { *this = MotionTracker(prediction_config_, prior_config_, bounds_); }
+
+}  // namespace rilo

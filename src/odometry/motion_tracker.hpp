@@ -1,0 +1,86 @@
+// The motion so far, from the sweeps that can be trusted, and what it lets one expect.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "rilo/geometry/trajectory.hpp"
+#include "rilo/odometry/motion_bounds_config.hpp"
+#include "rilo/odometry/motion_prediction_config.hpp"
+#include "rilo/odometry/motion_prior_config.hpp"
+#include "rilo/registration/adaptive_icp.hpp"
+
+namespace rilo {
+
+/// What a pose says of the motion to it.
+enum class MotionVerdict : std::uint8_t {
+  kPossible,    ///< from the last trusted pose
+  kJump,        ///< not from there, but from the pose that the sweep before claimed in vain: two agree
+  kImpossible,  ///< from neither
+};
+
+/// Follows the sensor on a time of its own. Only poses that were accepted enter; a velocity is never taken from a
+/// motion whose time is in doubt: after a loss or a jump the velocity from before goes on.
+class MotionTracker {
+ public:
+  MotionTracker(const MotionPredictionConfig& prediction, const MotionPriorConfig& prior,
+                const MotionBoundsConfig& bounds)
+      : prediction_config_(prediction), prior_config_(prior), bounds_(bounds) {}
+
+  /// The next sweep came so much later than the one before.
+  void advance(std::int64_t step_ns) { now_ns_ += step_ns; }
+
+  /// State of the last sweep: registered, or guessed when that failed.
+  const MotionState& state() const { return state_; }
+  /// State of the last sweep that was accepted, and the time since (s).
+  const MotionState& trusted() const { return trusted_state_; }
+  double since_trusted_s() const { return seconds_since(past_.empty() ? 0 : past_.back().stamp_ns); }
+  /// Whether the sweep before could not be registered.
+  bool lost() const { return lost_; }
+
+  /// T_pred (III-B) from the trusted poses, and the velocity.
+  MotionState predicted(double sigma_th_m) const;
+  /// The same from the pose that the sweep before claimed in vain, if it did.
+  std::optional<MotionState> predicted_from_claim() const;
+  /// Velocity of a sweep at `T_odom_lidar`: what the motion there implies, where a sensor can move so.
+  Vector6d implied_twist(const SE3& T_odom_lidar) const;
+  /// Prior of the registration; `refuted`: start there, the motion so far does not count.
+  MotionPrior prior(const std::optional<MotionState>& refuted) const;
+
+  MotionVerdict weigh(const SE3& T_odom_lidar) const;
+
+  /// A map begins at `state`: its velocity is a guess.
+  void begin(const MotionState& state);
+  /// Takes the registered state of a sweep. Returns the displacement since the last trusted pose (sensor frame, m).
+  Eigen::Vector3d accept(const IcpResult& icp, MotionVerdict verdict, bool degenerate);
+  /// Goes on at the prediction; `claim`: pose at which the sweep fitted the map, had the motion been possible.
+  void lose(const MotionState& predicted, const std::optional<SE3>& claim);
+
+  void reset();
+
+ private:
+  struct Claim {
+    SE3 T_odom_lidar;
+    std::int64_t at_ns = 0;
+    std::optional<SE3> step;  // from the claim of the sweep before, ...
+    double step_s = 0;        // ... which was so long ago
+  };
+  double seconds_since(std::int64_t at_ns) const { return static_cast<double>(now_ns_ - at_ns) * 1e-9; }
+  bool agrees_with_claim(const SE3& T_odom_lidar) const;
+
+  MotionPredictionConfig prediction_config_;
+  MotionPriorConfig prior_config_;
+  MotionBoundsConfig bounds_;
+  std::int64_t now_ns_ = 0;  // sum of the steps
+  Trajectory past_;          // the last trusted poses, at most three, stamped with now_ns_
+  MotionState state_;
+  MotionState trusted_state_;
+  Matrix6d velocity_covariance_ = Matrix6d::Identity();  // set where a map begins
+  std::optional<SE3> step_;                              // the last motion whose time is not in doubt, ...
+  double step_s_ = 0;                                    // ... and how long it took
+  std::optional<Claim> claim_;
+  bool lost_ = false;
+  bool degenerate_ = false;
+};
+
+}  // namespace rilo

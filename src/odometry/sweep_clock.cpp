@@ -1,0 +1,63 @@
+#include "odometry/sweep_clock.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace rilo {
+
+namespace {
+constexpr std::int64_t kFirstPeriodNs = 100'000'000;     // until two stamps are known: most sensors turn at 10 Hz
+constexpr std::int64_t kShortestStepNs = 1'000'000;      // no sensor turns a thousand times a second
+constexpr std::int64_t kLongestStepNs = 10'000'000'000;  // after it nothing of the motion before counts
+constexpr std::int64_t kLatestNs = std::numeric_limits<std::int64_t>::max() - kLongestStepNs;
+
+/// later − earlier; 0, which no step is, where that has no representation.
+std::int64_t difference(std::int64_t later, std::int64_t earlier) {
+  std::int64_t result = 0;
+  return __builtin_sub_overflow(later, earlier, &result) ? 0 : result;
+}
+
+bool believable(std::int64_t step_ns) { return step_ns >= kShortestStepNs && step_ns <= kLongestStepNs; }
+}  // namespace
+
+SweepTime SweepClock::advance(std::int64_t given_ns) {
+  if (!begun_) {
+    begun_ = true;
+    stamp_ns_ = given_ns_ = believed_ns_ = std::min(given_ns, kLatestNs);
+    return {stamp_ns_, 0, true};
+  }
+  const std::int64_t from_believed = difference(given_ns, believed_ns_) - since_ns_;
+  const std::int64_t from_last = difference(given_ns, given_ns_);
+  // Until a stamp is in doubt both are the same.
+  const bool goes_on = believable(from_believed);
+  const bool was_set = !goes_on && believable(from_last);
+  SweepTime time{0, goes_on ? from_believed : was_set ? from_last : period_ns(), goes_on || was_set};
+  time.stamp_ns = stamp_ns_ = std::min(stamp_ns_, kLatestNs) + time.step_ns;
+  if (was_set && given_ns > stamp_ns_ && given_ns < kLatestNs) {
+    time.stamp_ns = stamp_ns_ = given_ns;  // set forward: the stamps of the poses follow
+  }
+  given_ns_ = given_ns;
+  if (time.believed) {
+    remember(time.step_ns);
+    believed_ns_ = given_ns;
+    since_ns_ = 0;
+  } else {
+    since_ns_ += time.step_ns;
+  }
+  return time;
+}
+
+std::int64_t SweepClock::period_ns() const {
+  if (count_ == 0) {
+    return kFirstPeriodNs;
+  }
+  const std::size_t known = std::min(count_, kRemembered);
+  std::array<std::int64_t, kRemembered> sorted = steps_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(known / 2);
+  std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(known));
+  return *middle;
+}
+
+void SweepClock::remember(std::int64_t step_ns) { steps_[count_++ % kRemembered] = step_ns; }
+
+}  // namespace rilo

@@ -1,0 +1,43 @@
+// The odometry's own time: how long ago the sweep before was, whatever the stamps say.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace rilo {
+
+/// The instant of a sweep.
+struct SweepTime {
+  std::int64_t stamp_ns = 0;  ///< of the pose; increases from sweep to sweep
+  std::int64_t step_ns = 0;   ///< time since the sweep before, > 0; 0 for the first
+  bool believed = true;       ///< false: the stamp could not be used, the step is a guess of one period
+};
+
+/// Takes steps between stamps as they are where a sensor can have made them; elsewhere a period has passed. A stamp
+/// that is alone in its error is forgotten with the next one, and a clock that was set is followed from then on.
+class SweepClock {
+ public:
+  /// Time of the next sweep from the stamp that it came with.
+  SweepTime advance(std::int64_t given_ns);
+
+  /// Median of the last believed steps (ns).
+  std::int64_t period_ns() const;
+
+  void reset() { *this = {}; }
+
+ private:
+  static constexpr std::size_t kRemembered = 9;  // steps: odd, and a few drops among them do not move their median
+
+  void remember(std::int64_t step_ns);
+
+  bool begun_ = false;
+  std::int64_t stamp_ns_ = 0;     // of the last pose
+  std::int64_t given_ns_ = 0;     // the stamp that the last sweep came with
+  std::int64_t believed_ns_ = 0;  // the last one that was believed, ...
+  std::int64_t since_ns_ = 0;     // ... and the own time since then: 0 when it is that of the last sweep
+  std::array<std::int64_t, kRemembered> steps_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace rilo

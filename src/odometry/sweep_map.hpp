@@ -1,0 +1,50 @@
+// The local map of the odometry, and how sweeps go into it.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rilo/cloud/timed_cloud.hpp"
+#include "rilo/map/local_map.hpp"
+#include "rilo/registration/adaptive_icp.hpp"
+
+namespace rilo {
+
+/// Local map with the number of its sweeps. Its first sweep goes in as if its velocity were known, which it is not:
+/// once the second one shows it, first_compensated() is the map as it should have begun.
+class SweepMap {
+ public:
+  explicit SweepMap(const LocalMapConfig& config) : config_(config), map_(config) {}
+
+  const LocalMap& map() const { return map_; }
+  LocalMap& map() { return map_; }
+  std::size_t sweeps() const { return sweeps_; }
+  /// The points that went in last, motion-compensated, sensor frame, and their intensities.
+  const std::vector<Eigen::Vector3f>& last_points() const { return points_; }
+  const std::vector<float>& last_intensities() const { return intensities_; }
+
+  /// Drops what is there and begins with a sweep.
+  void begin(const TimedCloud& cloud, const MotionState& state, double scene_range_m, const RigidLever& lever);
+  void insert(const TimedCloud& cloud, const MotionState& state, const RigidLever& lever);
+
+  /// Whether the only sweep so far carries the times that it takes to compensate it.
+  bool first_can_be_compensated() const { return sweeps_ == 1 && first_cloud_.timed(); }
+  /// The map of the first sweep alone, compensated for `twist`.
+  LocalMap first_compensated(const Vector6d& twist, double scene_range_m, const RigidLever& lever) const;
+  void replace(LocalMap map) { map_ = std::move(map); }
+
+  void clear();
+
+ private:
+  LocalMapConfig config_;
+  LocalMap map_;
+  std::size_t sweeps_ = 0;
+  TimedCloud first_cloud_;
+  SE3 T_odom_first_ = SE3::Identity();
+  std::vector<Eigen::Vector3f> points_;
+  std::vector<float> intensities_;
+};
+
+}  // namespace rilo

@@ -1,0 +1,16 @@
+// JSON files of our own, read back.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace rilo {
+
+/// The object in `file`. `expected` and `remedy` stand in the message.
+/// @throws IoError when it cannot be read, is no JSON or no object.
+nlohmann::json read_json_object(const std::filesystem::path& file, const std::string& expected,
+                                const std::string& remedy);
+
+}  // namespace rilo

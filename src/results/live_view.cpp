@@ -1,0 +1,81 @@
+#include "results/live_view.hpp"
+
+#include <iostream>
+#include <utility>
+
+#include "console/text.hpp"
+#include "rilo/io/ground_truth.hpp"
+#include "rilo/io/io_error.hpp"
+#include "rilo/session/run_error.hpp"
+
+namespace rilo {
+
+namespace {
+
+// Says on standard error where to look, even in a quiet run: nobody could find it otherwise.
+std::unique_ptr<Viewer> open_viewer(const ViewInfo& info, const ViewOptions& options) {
+  try {
+    auto viewer = std::make_unique<Viewer>(info, options);
+    std::cerr << "rilo: viewer at " << viewer->url() << std::endl;
+    return viewer;
+  } catch (const IoError& error) {
+    throw RunError(RunErrorKind::kUsage, error.what());
+  }
+}
+
+}  // namespace
+
+TruthTrack::TruthTrack(const std::filesystem::path& data) {
+  try {
+    auto truth = read_ground_truth(data, TruthInstant::kMid);
+    if (truth) T_world_lidar_ = std::move(truth->T_world_lidar);
+  } catch (const IoError&) {
+    // The run itself says what is wrong with it.
+    T_world_lidar_.clear();
+  }
+}
+
+std::optional<Eigen::Vector3d> TruthTrack::at(std::size_t index, const SE3& estimate) {
+  if (index >= T_world_lidar_.size()) return std::nullopt;
+  if (!T_odom_world_) T_odom_world_ = estimate * T_world_lidar_[index].inverse();
+  return (*T_odom_world_ * T_world_lidar_[index]).translation();
+}
+
+LiveView::LiveView(const ViewInfo& info, const ViewOptions& options, std::optional<TruthTrack> truth)
+    : live_(info.live), truth_(std::move(truth)), viewer_(open_viewer(info, options)) {}
+
+LiveView::~LiveView() {
+  const std::string why = viewer_->failure();
+  if (!why.empty()) std::cerr << "rilo: the viewer ended early: " << why << '\n';
+}
+
+void LiveView::show(std::size_t index, const SweepResult& result, Sweep sweep) {
+  ViewSweep view;
+  view.index = index;
+  view.result = result;
+  if (truth_) view.truth = truth_->at(index, result.T_odom_lidar);
+  view.full_covariance = live_;
+  view.sweep = std::move(sweep);
+  if (live_) {
+    viewer_->push(std::move(view));
+  } else {
+    viewer_->push_all(std::move(view));
+  }
+}
+
+void LiveView::start_over() {
+  if (truth_) truth_->start_over();
+  viewer_->start_over();
+}
+
+ViewInfo view_info(const std::string& data, const OdometryConfig& config) {
+  ViewInfo info;
+  info.title = valid_utf8(last_name(data));
+  info.data = valid_utf8(data);
+  info.degenerate_ratio = config.health.degenerate_ratio;
+  info.min_range_m = config.preprocess.min_range_m;
+  info.max_range_m = config.preprocess.max_range_m;
+  return info;
+}
+
+}  // namespace rilo

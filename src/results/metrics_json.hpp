@@ -1,0 +1,23 @@
+// RunMetrics as JSON and back, by one list of keys.
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "results/metrics.hpp"
+
+namespace rilo {
+
+/// What is empty is null in kAll and absent in kSparse (of a peer, little is known).
+enum class MetricKeys : std::uint8_t { kAll, kSparse };
+
+nlohmann::json to_json(const RunMetrics& metrics, MetricKeys keys = MetricKeys::kAll);
+nlohmann::json to_json(const EvaluationMetrics& metrics);
+nlohmann::json to_json(const StampFaults& faults);
+
+/// Keys that are missing or null leave their field empty; unknown ones are passed over. `file`: for messages.
+/// @throws IoError when a value is of another type than its key has.
+RunMetrics metrics_of(const nlohmann::json& json, const std::filesystem::path& file);
+
+}  // namespace rilo

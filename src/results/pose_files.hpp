@@ -1,0 +1,44 @@
+// Trajectories of unknown form, and pairing them.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "rilo/evaluation/association.hpp"
+#include "rilo/io/ground_truth.hpp"
+
+namespace rilo {
+
+struct PoseFile {
+  std::filesystem::path file;
+  Trajectory trajectory;
+  bool stamped = false;  ///< TUM form
+};
+
+/// KITTI form (12 numbers a line) or TUM form (8), told from the first line. @throws IoError
+PoseFile read_poses(const std::filesystem::path& file);
+
+/// The same, or the ground truth of a data folder for that instant of the sweeps. @throws IoError
+PoseFile read_truth(const std::filesystem::path& path, TruthInstant instant);
+
+enum class Pairing { kAuto, kIndex, kStamp };
+
+/// "auto", "index" or "stamp".
+Pairing parse_pairing(const std::string& text);
+
+struct PairingOptions {
+  Pairing pairing = Pairing::kAuto;  ///< auto: by stamp when both files have stamps
+  double max_gap_s = 0.02;
+  std::size_t first = 0;  ///< by index: the true pose that belongs to the first estimate
+};
+
+struct PairedPoses {
+  MatchedPoses poses;
+  std::string protocol;  ///< how they were paired, and what was left out
+};
+
+/// @throws RunError when the two cannot be paired so.
+PairedPoses pair_poses(const PoseFile& truth, const PoseFile& estimate, const PairingOptions& options);
+
+}  // namespace rilo

@@ -1,0 +1,161 @@
+#include "results/run_metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include "console/text.hpp"
+#include "console/version.hpp"
+#include "rilo/evaluation/percentile.hpp"
+#include "rilo/geometry/degrees.hpp"
+
+namespace rilo {
+
+namespace {
+
+constexpr double kP95 = 0.95;
+constexpr double kP99 = 0.99;
+
+TimingMetrics timing(const RunRecord& run) {
+  std::vector<double> ms;
+  double sum = 0.0;
+  for (const SweepResult& result : run.results) {
+    ms.push_back(result.stats.times.total_ms);
+    sum += ms.back();
+  }
+  if (ms.empty()) return {};
+  std::sort(ms.begin(), ms.end());
+  return {sum / static_cast<double>(ms.size()), percentile(ms, 0.5), percentile(ms, kP95), percentile(ms, kP99),
+          ms.back()};
+}
+
+StageMetrics stage_means(const RunRecord& run) {
+  StageMetrics means;
+  const double n = std::max<double>(1.0, static_cast<double>(run.results.size()));
+  for (const SweepResult& result : run.results) {
+    const StageTimes& t = result.stats.times;
+    means.preprocess += t.preprocess_ms / n;
+    means.initial_pose += t.initial_pose_ms / n;
+    means.registration += t.registration_ms / n;
+    means.map += t.map_ms / n;
+  }
+  return means;
+}
+
+void count_sweeps(const RunRecord& run, RunMetrics& metrics) {
+  // All names, those that never occurred too: scripts need not ask whether one is there.
+  for (const auto source : {InitialPoseSource::kIdentity, InitialPoseSource::kPrediction, InitialPoseSource::kCoarse}) {
+    metrics.initial_pose[std::string(to_string(source))] = 0;
+  }
+  for (std::size_t i = 0; i < kStatusCount; ++i) {
+    metrics.status[std::string(to_string(static_cast<OdometryStatus>(i)))] = 0;
+  }
+  double iterations = 0;
+  for (const SweepResult& result : run.results) {
+    ++metrics.status[std::string(to_string(result.status))];
+    ++metrics.initial_pose[std::string(to_string(result.stats.initial_pose))];
+    ++metrics.initial_pose_reasons[std::string(to_string(result.stats.initial_pose_reason))];
+    metrics.coarse_runs += result.stats.coarse_ran ? 1 : 0;
+    iterations += result.stats.iterations;
+  }
+  metrics.mean_iterations = iterations / std::max<double>(1.0, static_cast<double>(run.results.size()));
+}
+
+std::optional<BudgetMetrics> budget(const RunRecord& run) {
+  if (run.config.budget.sweep_ms <= 0.0) return std::nullopt;
+  const auto count = [&](bool SweepStats::*flag) {
+    return static_cast<std::size_t>(std::count_if(run.results.begin(), run.results.end(),
+                                                  [&](const SweepResult& result) { return result.stats.*flag; }));
+  };
+  return BudgetMetrics{run.config.budget.sweep_ms, count(&SweepStats::points_cut), count(&SweepStats::coarse_cut),
+                       count(&SweepStats::over_budget)};
+}
+
+// What the run found out about the sensor's angles; the correction given on the command line comes on top.
+void add_sensor_angles(const RunRecord& run, RunMetrics& metrics) {
+  metrics.elevation_offset_applied_deg = 0.0;
+  metrics.started_over_after_sweeps = run.started_over_after;
+  if (run.results.empty()) return;
+  const SweepStats& last = run.results.back().stats;
+  metrics.beam_elevation_rms_deg = kDegPerRad * last.beam_elevation_rms_rad;
+  metrics.beam_azimuth_rms_deg = kDegPerRad * last.beam_azimuth_rms_rad;
+  if (!run.config.elevation.enabled) return;
+  if (std::isfinite(last.elevation_offset_sigma_rad)) {
+    metrics.elevation_offset_deg = kDegPerRad * last.elevation_offset_rad;
+    metrics.elevation_offset_sigma_deg = kDegPerRad * last.elevation_offset_sigma_rad;
+  }
+  metrics.elevation_offset_applied_deg = kDegPerRad * last.elevation_applied_rad;
+}
+
+void add_data(const RunRecord& run, RunMetrics& metrics) {
+  const SourceInfo& source = run.source;
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(run.data, error).lexically_normal();
+  metrics.data = valid_utf8(run.data.string());
+  if (!error) metrics.data_path = valid_utf8(absolute.string());
+  metrics.format = source.kind + ", " + source.format;
+  metrics.pose_instant = to_string(run.pose_instant);
+  metrics.point_times = source.point_times;
+  metrics.motion_compensation = source.has_point_times && run.config.preprocess.deskew;
+  metrics.elevation_correction_deg = source.elevation_correction_deg;
+  metrics.topic = source.topic;
+  metrics.frame_id = source.frame_id;
+  metrics.bad_sweeps = source.bad_sweeps;
+  metrics.stamp_faults = source.faults;
+  metrics.warnings = source.warnings;
+}
+
+ErrorMetrics summary(const ErrorSummary& s) { return {s.rmse, s.mean, s.std, s.median, s.max}; }
+
+}  // namespace
+
+EvaluationMetrics evaluation_metrics(const Evaluation& e) {
+  EvaluationMetrics metrics;
+  metrics.poses = e.poses;
+  metrics.path_m = e.path_m;
+  metrics.t_rel_pct = e.kitti.t_rel_pct();
+  metrics.r_rel_deg_per_100m = e.kitti.r_rel_deg_100m();
+  metrics.t_rel_protocol = e.kitti.short_path ? "KITTI, lengths eighths of 80 % of the path" : "KITTI, 100 … 800 m";
+  metrics.ape_m = summary(e.ape.translation_m);
+  metrics.ape_rotation_deg = summary(e.ape.rotation_deg);
+  metrics.ape_unaligned_m = summary(e.ape_unaligned.translation_m);
+  metrics.rpe_frame_m = summary(e.rpe_frame.translation_m);
+  metrics.rpe_frame_deg = summary(e.rpe_frame.rotation_deg);
+  metrics.rpe_metre_m_per_m = summary(e.rpe_metre.translation_m);
+  metrics.rpe_metre_deg_per_m = summary(e.rpe_metre.rotation_deg);
+  metrics.end_error_m = e.end_error_m;
+  metrics.end_error_pct = e.end_error_pct;
+  return metrics;
+}
+
+EvaluationMetrics evaluation_metrics(const Evaluation& e, const TruthMatch& truth) {
+  EvaluationMetrics metrics = evaluation_metrics(e);
+  metrics.truth = truth.file;
+  metrics.truth_instant = truth.instant;
+  return metrics;
+}
+
+RunMetrics run_metrics(const RunRecord& run) {
+  RunMetrics metrics;
+  metrics.rilo_version = kVersion;
+  metrics.command = run.command_line;
+  metrics.frames = run.results.size();
+  metrics.interrupted = run.signal != 0;
+  metrics.error = run.error;
+  metrics.ms = timing(run);
+  metrics.ms_note = "all stages, deskew to map update; reading excluded; every sweep counts, the first ones too";
+  metrics.stage_mean_ms = stage_means(run);
+  metrics.wall_s = run.wall_s;
+  metrics.peak_rss_mb = run.peak_rss_mb;
+  metrics.threads = run.threads;
+  add_data(run, metrics);
+  count_sweeps(run, metrics);
+  metrics.budget = budget(run);
+  add_sensor_angles(run, metrics);
+  metrics.truth_error = run.truth_error;
+  if (run.evaluation) metrics.evaluation = evaluation_metrics(*run.evaluation, *run.truth);
+  return metrics;
+}
+
+}  // namespace rilo

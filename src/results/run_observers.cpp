@@ -1,0 +1,116 @@
+#include "results/run_observers.hpp"
+
+#include <exception>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "console/failure.hpp"
+#include "console/interrupt.hpp"
+
+namespace rilo {
+
+namespace {
+
+constexpr double kPictureVoxelM = 0.75;
+// 6 MB; beyond it the voxels grow: a long drive has small pixels anyway.
+constexpr std::size_t kPicturePoints = 100'000;
+
+}  // namespace
+
+void SweepCheck::on_read(const Sweep& sweep, const std::string& name) {
+  check_point_times(flags_.source, sweep, name);
+  if (flags_.map_intensity && sweep.intensities.size() != sweep.points.size()) {
+    throw RunError(RunErrorKind::kBadData, name + ": no intensities; leave out --map-intensity");
+  }
+}
+
+ProgressLine::ProgressLine(const RunRequest& flags, const ScanSource& source)
+    : progress_("rilo", sweeps_to_do(source, flags.start, flags.count), flags.quiet),
+      times_(flags.source.options.point_times) {}
+
+void ProgressLine::on_registered(const RegisteredSweep& sweep) {
+  if (done_ == 0 && times_ == PointTimes::kAuto && sweep.sweep.times_s.empty() && !note_given_) {
+    note_given_ = true;
+    progress_.say(
+        "rilo: note: no per-point times: no motion compensation; raw points of a spinning sensor: --point-times "
+        "azimuth; points that are compensated: --point-times none");
+  }
+  const bool usual = sweep.result.status == OdometryStatus::kOk;
+  progress_.update(++done_, usual ? "" : std::string(to_string(sweep.result.status)));
+}
+
+void ProgressLine::on_warning(const std::string& warning) { progress_.say("rilo: warning: " + warning); }
+
+void ProgressLine::on_restart(const Restart& restart) {
+  progress_.say(
+      fmt::format("rilo: elevation offset of the sensor estimated: {:+.3f} deg ({} sweeps); restarting with "
+                  "it (--one-pass: off)",
+                  restart.elevation_offset_deg, restart.after_sweeps));
+  done_ = 0;
+}
+
+void ProgressLine::on_end(const Odometry& /*odometry*/) { progress_.finish(); }
+
+MapPicture::MapPicture() : map_(kPictureVoxelM, kPicturePoints) {}
+
+void MapPicture::on_registered(const RegisteredSweep& sweep) {
+  if (!belongs_in_map(sweep.result.status, !sweep.sweep.times_s.empty())) return;
+  std::vector<Eigen::Vector3f> points = sweep.odometry.last_map_points();
+  const Eigen::Isometry3f T = sweep.result.T_odom_lidar.cast<float>();
+  for (Eigen::Vector3f& p : points) p = T * p;
+  map_.add(points, 0);
+}
+
+void MapPicture::on_restart(const Restart& /*restart*/) { map_ = BudgetedMap(kPictureVoxelM, kPicturePoints); }
+
+void MapPicture::on_end(const Odometry& odometry) {
+  if (map_.points().empty()) local_ = odometry.local_map();
+}
+
+std::vector<Eigen::Vector3f> MapPicture::points() const {
+  std::vector<Eigen::Vector3f> points = local_;
+  for (const MapPoint& point : map_.points()) points.push_back(point.p);
+  return points;
+}
+
+void ViewFeed::on_registered(const RegisteredSweep& sweep) { view_.show(sweep.index, sweep.result, sweep.sweep); }
+
+void ViewFeed::on_restart(const Restart& /*restart*/) { view_.start_over(); }
+
+void check_point_times(const SourceRequest& request, const Sweep& sweep, const std::string& name) {
+  if (!request.times_needed || !sweep.times_s.empty() || sweep.points.empty()) return;
+  throw RunError(RunErrorKind::kBadData, name +
+                                             ": no per-point times; expected them because of --point-times data. Take "
+                                             "auto, azimuth or none, or name the field with --time-field");
+}
+
+OpenSource source_of(const RunRequest& flags) {
+  return [data = flags.data, options = flags.source.options] { return open_scan_source(data, options); };
+}
+
+SessionOptions session_options(const RunRequest& flags, const OdometryConfig& config) {
+  SessionOptions options;
+  options.config = config;
+  options.start = flags.start;
+  options.count = flags.count;
+  options.one_pass = flags.one_pass;
+  options.keep_intensities = flags.map_intensity;
+  options.interrupted = [] { return InterruptGuard::signal() != 0; };
+  return options;
+}
+
+void take(SessionResult result, RunRecord& run) {
+  static_cast<SessionResult&>(run) = std::move(result);
+  if (run.interrupted) run.signal = InterruptGuard::signal();
+  if (!run.failure) return;
+  try {
+    std::rethrow_exception(run.failure);
+  } catch (...) {
+    const Failure failure = current_failure();
+    run.error = failure.message;
+    run.error_code = failure.code;
+  }
+}
+
+}  // namespace rilo

@@ -1,0 +1,80 @@
+// What `rilo run` and `rilo bench` do beside the odometry while a run goes on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "console/progress.hpp"
+#include "results/live_view.hpp"
+#include "results/run_record.hpp"
+#include "results/run_request.hpp"
+#include "rilo/session/session.hpp"
+#include "rilo/view/budgeted_map.hpp"
+
+namespace rilo {
+
+/// Refuses sweeps without what the flags need of them.
+class SweepCheck final : public SessionObserver {
+ public:
+  explicit SweepCheck(const RunRequest& flags) : flags_(flags) {}
+  /// @throws RunError, kBadData
+  void on_read(const Sweep& sweep, const std::string& name) override;
+
+ private:
+  const RunRequest& flags_;
+};
+
+/// The bar, warnings, and the line that says that the run starts over.
+class ProgressLine final : public SessionObserver {
+ public:
+  ProgressLine(const RunRequest& flags, const ScanSource& source);
+  void on_registered(const RegisteredSweep& sweep) override;
+  void on_warning(const std::string& warning) override;
+  void on_restart(const Restart& restart) override;
+  void on_end(const Odometry& odometry) override;
+
+ private:
+  Progress progress_;
+  PointTimes times_;
+  bool note_given_ = false;
+  std::size_t done_ = 0;
+};
+
+/// Few enough points of the map for the report's picture.
+class MapPicture final : public SessionObserver {
+ public:
+  MapPicture();
+  void on_registered(const RegisteredSweep& sweep) override;
+  void on_restart(const Restart& restart) override;
+  void on_end(const Odometry& odometry) override;
+  /// Odometry frame, m; of the local map when no sweep belongs in the map.
+  std::vector<Eigen::Vector3f> points() const;
+
+ private:
+  BudgetedMap map_;
+  std::vector<Eigen::Vector3f> local_;
+};
+
+/// Hands every sweep to the viewer.
+class ViewFeed final : public SessionObserver {
+ public:
+  explicit ViewFeed(LiveView& view) : view_(view) {}
+  void on_registered(const RegisteredSweep& sweep) override;
+  void on_restart(const Restart& restart) override;
+
+ private:
+  LiveView& view_;
+};
+
+/// Opens flags.data, for as many passes as there will be.
+OpenSource source_of(const RunRequest& flags);
+
+/// The run that the flags describe, ended by the signals of InterruptGuard.
+SessionOptions session_options(const RunRequest& flags, const OdometryConfig& config);
+
+/// Takes over what the session gave; its failure becomes run.error and run.error_code.
+void take(SessionResult result, RunRecord& run);
+
+}  // namespace rilo

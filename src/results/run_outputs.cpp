@@ -1,0 +1,121 @@
+#include "results/run_outputs.hpp"
+
+#include <sstream>
+#include <system_error>
+
+#include "console/text.hpp"
+#include "results/metrics_json.hpp"
+#include "results/run_report.hpp"
+#include "results/sweep_table.hpp"
+#include "rilo/config/config_file.hpp"
+#include "rilo/io/atomic_file.hpp"
+#include "rilo/io/io_error.hpp"
+#include "rilo/io/map_writer.hpp"
+#include "rilo/io/pose_writer.hpp"
+#include "rilo/io/trajectory_recording.hpp"
+#include "rilo/report/html_report.hpp"
+
+namespace rilo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A frame of ROS 1 may begin with a slash, which TF2 takes for a mistake.
+RecordingNames names_of(const OutputRequest& flags, const SourceInfo& source) {
+  RecordingNames names;
+  if (!flags.odom_frame.empty()) names.odom_frame = flags.odom_frame;
+  std::string frame = flags.lidar_frame.empty() ? source.frame_id : flags.lidar_frame;
+  frame.erase(0, frame.find_first_not_of('/'));
+  if (!frame.empty()) names.lidar_frame = frame;
+  return names;
+}
+
+void write_poses(const fs::path& folder, const RunRecord& run, const RecordingNames& names) {
+  const Trajectory trajectory = run.trajectory();
+  write_kitti_poses(folder / "poses_lidar.txt", trajectory);
+  write_tum(folder / "trajectory.tum", trajectory);
+  write_euroc(folder / "trajectory.csv", trajectory);
+  write_mcap(folder / "trajectory.mcap", run.results, names);
+  if (can_write_bags()) {
+    write_bag(folder / "trajectory.bag", run.results, names);
+  }
+  if (run.source.T_cam_lidar) {
+    write_kitti_poses_camera(folder / "poses_camera.txt", trajectory, *run.source.T_cam_lidar);
+  } else {
+    fs::remove(folder / "poses_camera.txt");
+  }
+}
+
+void write_report(const OutputRequest& flags, const RunRecord& run, const RunMetrics& metrics) {
+  const fs::path file = fs::path(flags.out) / "report.html";
+  if (flags.no_report || run.results.empty()) {
+    fs::remove(file);
+    return;
+  }
+  std::ostringstream html;
+  write_html_report(report_of(run, metrics), html);
+  write_atomically(file, html.str());
+}
+
+// Of an earlier run into the same folder, unless it is the one that is written now.
+void remove_stale_maps(const OutputRequest& flags) {
+  for (const char* name : {"map.ply", "map.pcd"}) {
+    const fs::path file = fs::path(flags.out) / name;
+    std::error_code ignored;
+    const bool written_now =
+        !flags.map.empty() && fs::weakly_canonical(flags.map, ignored) == fs::weakly_canonical(file, ignored);
+    if (!written_now) fs::remove(file);
+  }
+}
+
+void write_folder(const OutputRequest& flags, const RunRecord& run, const RunMetrics& metrics) {
+  const fs::path folder = flags.out;
+  write_poses(folder, run, names_of(flags, run.source));
+  write_atomically(folder / "config.yaml", dump_config(run.config));
+  write_atomically(folder / "sweeps.csv", sweeps_csv(run.results, run.indices));
+  write_atomically(folder / "metrics.json", json_text(to_json(metrics)));
+  write_report(flags, run, metrics);
+  remove_stale_maps(flags);
+}
+
+}  // namespace
+
+void create_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (fs::is_directory(folder)) return;
+  const std::string reason = error ? error.message() : "it is not a folder";
+  throw RunError(RunErrorKind::kCannotWrite,
+                 folder.string() + ": cannot be created (" + reason + "); choose another --out");
+}
+
+void prepare_outputs(const OutputRequest& flags) {
+  if (!flags.map.empty() && !flags.map.ends_with(".ply") && !flags.map.ends_with(".pcd")) {
+    throw RunError(RunErrorKind::kUsage, "--map " + flags.map + ": expected a file that ends in .ply or .pcd");
+  }
+  try {
+    if (!flags.out.empty()) {
+      create_folder(flags.out);
+      const AtomicFile probe(fs::path(flags.out) / "metrics.json");
+    }
+    if (!flags.map.empty()) {
+      const MapWriter probe(flags.map);
+    }
+  } catch (const IoError& error) {
+    throw RunError(RunErrorKind::kCannotWrite, error.what());
+  }
+}
+
+void write_outputs(const OutputRequest& flags, const RunRecord& run, const RunMetrics& metrics) {
+  try {
+    if (!flags.out.empty()) write_folder(flags, run, metrics);
+    if (!flags.map.empty()) write_map(flags.map, run.map);
+  } catch (const IoError& error) {
+    throw RunError(RunErrorKind::kCannotWrite, error.what());
+  } catch (const fs::filesystem_error& error) {
+    throw RunError(RunErrorKind::kCannotWrite, error.what());
+  }
+}
+
+}  // namespace rilo

@@ -1,0 +1,13 @@
+// The HTML report of a run.
+#pragma once
+
+#include "results/metrics.hpp"
+#include "results/run_record.hpp"
+#include "rilo/report/run_report.hpp"
+
+namespace rilo {
+
+/// What report.html shows; figures come from `metrics`, so that they agree.
+RunReport report_of(const RunRecord& run, const RunMetrics& metrics);
+
+}  // namespace rilo

@@ -1,0 +1,80 @@
+#include "results/run_summary.hpp"
+
+#include <fmt/format.h>
+
+#include "console/text.hpp"
+
+namespace rilo {
+
+namespace {
+
+constexpr double kLeastPathM = 10;  // of a path whose drift means anything
+
+std::string effort(const RunMetrics& m) {
+  std::string text;
+  if (m.timed()) {
+    text =
+        fmt::format("time per sweep  mean {:.1f} ms, median {:.1f}, p95 {:.1f}, p99 {:.1f}, max {:.1f}  ({} threads)\n",
+                    m.ms.mean.value_or(0), m.ms.median.value_or(0), m.ms.p95.value_or(0), m.ms.p99.value_or(0),
+                    m.ms.max.value_or(0), m.threads);
+  }
+  return text + fmt::format("peak memory     {:.0f} MB\n", m.peak_rss_mb.value_or(0));
+}
+
+std::string statuses(const RunMetrics& m) {
+  std::string text = "status         ";
+  for (const auto& [name, count] : m.status) {
+    if (count > 0) text += fmt::format(" {} {}", name, count);
+  }
+  if (m.budget) {
+    text += fmt::format("\nbudget {:.1f} ms  fewer points on {} sweeps, coarse stage cut on {}, over budget on {}",
+                        m.budget->sweep_ms, m.budget->points_cut, m.budget->coarse_cut, m.budget->over_budget);
+  }
+  return text + "\n";
+}
+
+// One name for each of the three: given on the command line, estimated, applied on top of what is given.
+std::string angles(const RunMetrics& m) {
+  std::string text;
+  if (m.elevation_correction_deg.value_or(0) != 0.0) {
+    text += fmt::format("elevation given {:+.3f} deg (--elevation-correction)\n", *m.elevation_correction_deg);
+  }
+  if (m.elevation_offset_deg) {
+    text += fmt::format("elev. offset    estimated {:+.3f} ± {:.3f} deg, applied {:+.3f} deg", *m.elevation_offset_deg,
+                        m.elevation_offset_sigma_deg.value_or(0), m.elevation_offset_applied_deg.value_or(0));
+    if (m.started_over_after_sweeps) {
+      text += fmt::format(" from the first sweep on (restarted after {} sweeps)", *m.started_over_after_sweeps);
+    }
+    text += "\n";
+  }
+  if (m.beam_elevation_rms_deg > 0.0 || m.beam_azimuth_rms_deg > 0.0) {
+    text += fmt::format("per-beam calib. rms {:.3f} deg in elevation, {:.3f} in azimuth\n", m.beam_elevation_rms_deg,
+                        m.beam_azimuth_rms_deg);
+  }
+  return text;
+}
+
+std::string against_truth(const RunMetrics& m) {
+  if (!m.evaluated()) return "";
+  const EvaluationMetrics& e = m.evaluation;
+  std::string text = fmt::format("against truth   APE {:.4f} m aligned, {:.4f} m unaligned; path {:.1f} m",
+                                 e.ape_m.rmse.value_or(0), e.ape_unaligned_m.rmse.value_or(0), e.path_m.value_or(0));
+  if (e.t_rel_pct && e.path_m.value_or(0) >= kLeastPathM) {
+    text += fmt::format("; t_rel {:.4f} %, r_rel {:.4f} deg/100m", *e.t_rel_pct, e.r_rel_deg_per_100m.value_or(0));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string run_summary(const RunMetrics& m) {
+  const std::string deskewing = m.motion_compensation ? "on" : "off";
+  return fmt::format("{} of {}{}\n", counted(m.frames.value_or(0), "sweep"), m.data,
+                     m.interrupted ? " (interrupted)" : "") +
+         effort(m) + statuses(m) +
+         fmt::format("pose time       {} of the sweep; deskewing: {}; point times: {}\n", m.pose_instant, deskewing,
+                     m.point_times) +
+         angles(m) + against_truth(m);
+}
+
+}  // namespace rilo

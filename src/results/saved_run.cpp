@@ -1,0 +1,180 @@
+#include "results/saved_run.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "console/text.hpp"
+#include "results/json_file.hpp"
+#include "results/metrics_json.hpp"
+#include "results/sweep_table.hpp"
+#include "rilo/config/config_file.hpp"
+#include "rilo/io/cloud_reader.hpp"
+#include "rilo/io/io_error.hpp"
+#include "rilo/io/pose_reader.hpp"
+
+namespace rilo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMetrics = "metrics.json";
+constexpr const char* kPartial = "poses_lidar.partial.txt";
+constexpr const char* kAgain = "Run rilo run again";
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+/// What an older version did not write is said to be unknown.
+RunMetrics read_metrics(const fs::path& file) {
+  RunMetrics metrics = metrics_of(read_json_object(file, "metrics.json of rilo run", kAgain), file);
+  for (std::string* text : {&metrics.rilo_version, &metrics.point_times}) {
+    if (text->empty()) *text = "unknown";
+  }
+  return metrics;
+}
+
+void fill_record(const RunMetrics& metrics, RunRecord& run) {
+  run.command_line = metrics.command;
+  // A relative path is one from where the run was started.
+  const bool relative = fs::path(metrics.data).is_relative();
+  std::error_code ignored;
+  const bool there = relative && !metrics.data_path.empty() && fs::exists(metrics.data_path, ignored);
+  run.data = there ? metrics.data_path : metrics.data;
+  run.threads = metrics.threads;
+  run.peak_rss_mb = metrics.peak_rss_mb.value_or(0);
+  run.signal = metrics.interrupted ? 1 : 0;
+  run.error = metrics.error;
+  run.source.kind = metrics.format.substr(0, metrics.format.find(", "));
+  run.source.format =
+      metrics.format.size() > run.source.kind.size() ? metrics.format.substr(run.source.kind.size() + 2) : "";
+  run.source.point_times = metrics.point_times;
+  run.source.has_point_times = metrics.motion_compensation;
+  run.source.elevation_correction_deg = metrics.elevation_correction_deg.value_or(0);
+  run.source.topic = metrics.topic;
+  run.source.warnings = metrics.warnings;
+  for (const PoseInstant instant : {PoseInstant::kStart, PoseInstant::kMid, PoseInstant::kEnd}) {
+    if (metrics.pose_instant == to_string(instant)) run.pose_instant = instant;
+  }
+}
+
+/// Median step of the stamps; the default of a source when there is none.
+double period_of(const RunRecord& run) {
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 1; i < run.results.size(); ++i) {
+    steps.push_back(run.results[i].stamp_ns - run.results[i - 1].stamp_ns);
+  }
+  if (steps.empty()) return run.source.period_s;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle > 0 ? static_cast<double>(*middle) * 1e-9 : run.source.period_s;
+}
+
+/// The configuration decides one line of the report; one of another version is no reason to refuse the run.
+OdometryConfig config_of(const fs::path& folder) {
+  try {
+    return is_file(folder / "config.yaml") ? load_config(folder / "config.yaml") : OdometryConfig{};
+  } catch (const ConfigError&) {
+    return {};
+  }
+}
+
+/// map.ply or map.pcd, else the largest such file.
+std::optional<fs::path> map_file(const fs::path& folder) {
+  std::optional<fs::path> found;
+  std::uintmax_t largest = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const fs::path& file = entry.path();
+    if (!entry.is_regular_file() || (file.extension() != ".ply" && file.extension() != ".pcd")) continue;
+    if (file.stem() == "map") return file;
+    if (!found || entry.file_size() > largest) {
+      found = file;
+      largest = entry.file_size();
+    }
+  }
+  return found;
+}
+
+void read_map(SavedRun& run) {
+  const auto file = map_file(run.folder);
+  if (file) run.record.map.points = (file->extension() == ".ply" ? read_ply(*file) : read_pcd(*file)).points;
+}
+
+/// The files do not hold the velocity during a sweep: it is taken from the poses before and after it.
+void add_twists(std::vector<SweepResult>& results) {
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const SweepResult& before = results[i == 0 ? 0 : i - 1];
+    const SweepResult& after = results[std::min(i + 1, results.size() - 1)];
+    const double dt_s = static_cast<double>(after.stamp_ns - before.stamp_ns) * 1e-9;
+    if (dt_s > 0.0) results[i].twist = se3_log(before.T_odom_lidar.inverse() * after.T_odom_lidar) / dt_s;
+  }
+}
+
+void set_poses(const fs::path& file, RunRecord& run) {
+  const std::vector<SE3> poses = read_kitti_poses(file);
+  if (poses.size() != run.results.size()) {
+    throw IoError({file, "", counted(poses.size(), "pose"),
+                   fmt::format("{}, as sweeps.csv has lines", run.results.size()),
+                   "The files are of different runs. " + std::string(kAgain)});
+  }
+  for (std::size_t i = 0; i < poses.size(); ++i) run.results[i].T_odom_lidar = poses[i];
+  add_twists(run.results);
+}
+
+SavedRun read_killed_run(const fs::path& folder) {
+  SavedRun run;
+  run.folder = folder;
+  run.killed = true;
+  for (const SE3& T : read_growing_kitti_poses(folder / kPartial)) {
+    SweepResult result;
+    result.T_odom_lidar = T;
+    run.record.indices.push_back(run.record.results.size());
+    run.record.results.push_back(result);
+  }
+  run.notices.push_back(fmt::format("this run was killed or is still going on: only {} is there, with its first {}",
+                                    kPartial, counted(run.record.results.size(), "pose")));
+  return run;
+}
+
+}  // namespace
+
+bool is_saved_run(const fs::path& folder) { return is_file(folder / kMetrics) || is_file(folder / kPartial); }
+
+SavedRun read_saved_run(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
+    throw IoError({folder, "", fs::exists(folder, ignored) ? "a file" : "no such folder",
+                   "a folder that rilo run --out has written", "Check the path"});
+  }
+  if (!is_saved_run(folder)) {
+    throw IoError({folder, "", "neither metrics.json nor poses_lidar.partial.txt in it",
+                   "a folder that rilo run --out has written", "Check the path"});
+  }
+  if (!is_file(folder / kMetrics)) return read_killed_run(folder);
+  SavedRun run;
+  run.folder = folder;
+  run.metrics = read_metrics(folder / kMetrics);
+  fill_record(run.metrics, run.record);
+  SweepTable sweeps = read_sweeps_csv(folder / "sweeps.csv");
+  run.record.results = std::move(sweeps.results);
+  run.record.indices = std::move(sweeps.indices);
+  set_poses(folder / "poses_lidar.txt", run.record);
+  run.record.source.period_s = period_of(run.record);
+  run.record.config = config_of(folder);
+  if (is_file(run.record.data / "calib.txt")) {
+    run.record.source.T_cam_lidar = read_kitti_calibration(run.record.data / "calib.txt");
+  }
+  read_map(run);
+  if (is_file(folder / kPartial)) {
+    run.notices.push_back(fmt::format(
+        "a later run into this folder was killed or is still going on ({}); shown is the one before", kPartial));
+  }
+  return run;
+}
+
+}  // namespace rilo

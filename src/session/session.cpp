@@ -1,0 +1,167 @@
+#include "rilo/session/session.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "rilo/geometry/degrees.hpp"
+#include "rilo/io/point_times.hpp"
+#include "rilo/session/steady_clock.hpp"
+#include "session/process_memory.hpp"
+
+namespace rilo {
+
+class Session::Impl {
+ public:
+  Impl(OpenSource open, SessionOptions options)
+      : open_(std::move(open)), options_(std::move(options)), source_(open_()), odometry_(new_odometry()) {}
+
+  void add(SessionObserver& observer) { observers_.push_back(&observer); }
+  const ScanSource& source() const { return *source_; }
+
+  SessionResult run() {
+    const std::int64_t begin_ns = steady_ns();
+    const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    result_.threads = options_.config.threads > 0 ? options_.config.threads : processors;
+    guarded([this] { run_sweeps(); });
+    result_.wall_s = static_cast<double>(steady_ns() - begin_ns) * 1e-9;
+    result_.peak_rss_mb = detail::peak_memory_mb();
+    result_.source = source_->info();
+    result_.config = options_.config;
+    guarded([this] {
+      for (SessionObserver* observer : observers_) observer->on_end(odometry_);
+    });
+    return std::move(result_);
+  }
+
+ private:
+  // The first error is what ended the run.
+  template <typename Work>
+  void guarded(const Work& work) {
+    try {
+      work();
+    } catch (...) {
+      if (!result_.failure) result_.failure = std::current_exception();
+    }
+  }
+
+  Odometry new_odometry() const {
+    Odometry odometry(options_.config, steady_ns);
+    odometry.keep_intensities(options_.keep_intensities);
+    return odometry;
+  }
+
+  bool interrupted() {
+    result_.interrupted = options_.interrupted && options_.interrupted();
+    return result_.interrupted;
+  }
+
+  void run_sweeps() {
+    source_->skip(options_.start);
+    while (!interrupted() && (options_.count == 0 || result_.results.size() < options_.count) && step()) {
+      if (restart_due()) restart();
+    }
+    if (result_.results.empty() && !result_.interrupted) throw RunError(RunErrorKind::kBadData, nothing_to_run());
+  }
+
+  // False at the end of the data.
+  bool step() {
+    const std::optional<Sweep> sweep = source_->next();
+    give_warnings();
+    if (!sweep) return false;
+    for (SessionObserver* observer : observers_) observer->on_read(*sweep, source_->current_name());
+    SweepResult result = odometry_.register_sweep(*sweep);
+    result.stamp_ns = pose_stamp_ns(result.stamp_ns, sweep->stamp_ns);
+    result_.results.push_back(result);
+    result_.indices.push_back(source_->current_index());
+    const RegisteredSweep registered{result_.indices.back(), *sweep, result_.results.back(), odometry_};
+    for (SessionObserver* observer : observers_) observer->on_registered(registered);
+    return true;
+  }
+
+  // The elevation offset has just become certain, and the sweeps before were registered without its correction.
+  bool restart_due() const {
+    const bool applied = result_.results.back().stats.elevation_applied_rad != 0.0;
+    return !options_.one_pass && !result_.started_over_after && applied &&
+           options_.config.elevation.initial_deg == 0.0 && result_.results.size() <= kRestartWithinSweeps;
+  }
+
+  void restart() {
+    // Before anything is given up: the data may be gone meanwhile.
+    auto source = open_();
+    source->skip(options_.start);
+    const Restart restart{result_.results.size(), kDegPerRad * result_.results.back().stats.elevation_offset_rad};
+    options_.config.elevation.initial_deg = restart.elevation_offset_deg;
+    result_.started_over_after = restart.after_sweeps;
+    result_.results.clear();
+    result_.indices.clear();
+    source_ = std::move(source);
+    odometry_ = new_odometry();
+    for (SessionObserver* observer : observers_) observer->on_restart(restart);
+  }
+
+  // As they come: a run may take hours.
+  void give_warnings() {
+    const std::vector<std::string> warnings = source_->info().warnings;
+    for (const std::string& warning : warnings) {
+      if (std::find(given_.begin(), given_.end(), warning) != given_.end()) continue;
+      given_.push_back(warning);
+      for (SessionObserver* observer : observers_) observer->on_warning(warning);
+    }
+  }
+
+  std::string nothing_to_run() const {
+    const SourceInfo info = source_->info();
+    const std::string path = info.path.string();
+    const std::optional<std::size_t> size = source_->size();
+    if (size && options_.start >= *size) {
+      return fmt::format("{}: no sweep to run: start {} is past the last of {} sweeps", path, options_.start, *size);
+    }
+    return fmt::format("{}: no sweep to run ({} could not be read)", path, info.bad_sweeps);
+  }
+
+  OpenSource open_;
+  SessionOptions options_;  // with the elevation offset found, in the second pass
+  std::unique_ptr<ScanSource> source_;
+  Odometry odometry_;
+  std::vector<SessionObserver*> observers_;
+  SessionResult result_;
+  std::vector<std::string> given_;  // warnings
+};
+
+Trajectory SessionResult::trajectory() const {
+  Trajectory trajectory;
+  trajectory.reserve(results.size());
+  for (const SweepResult& result : results) trajectory.push_back({result.stamp_ns, result.T_odom_lidar});
+  return trajectory;
+}
+
+std::optional<std::size_t> sweeps_to_do(const ScanSource& source, std::size_t start, std::size_t count) {
+  std::optional<std::size_t> total = source.size();
+  if (total) *total -= std::min(*total, start);
+  if (count > 0) total = std::min(total.value_or(count), count);
+  return total;
+}
+
+Session::Session(OpenSource open, SessionOptions options)
+    : impl_(std::make_unique<Impl>(std::move(open), std::move(options))) {}
+
+Session::~Session() = default;
+
+void Session::add(SessionObserver& observer) { impl_->add(observer); }
+
+const ScanSource& Session::source() const { return impl_->source(); }
+
+SessionResult Session::run() { return impl_->run(); }
+
+SessionResult run_recording(const std::filesystem::path& data, const SessionOptions& options,
+                            const SourceOptions& source) {
+  SessionResult result = Session([&] { return open_scan_source(data, source); }, options).run();
+  if (result.failure) std::rethrow_exception(result.failure);
+  return result;
+}
+
+}  // namespace rilo

@@ -1,0 +1,165 @@
+// Faults of the data, put into a simulated drive: no pose that the status vouches for is wrong, and tracking goes on.
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "rilo/odometry/odometry.hpp"
+#include "rilo/simulation/drive_simulator.hpp"
+
+namespace rilo {
+namespace {
+
+struct Recorded {
+  Sweep sweep;
+  SE3 truth;
+};
+
+const std::vector<Recorded>& drive() {
+  static const std::vector<Recorded> kRecorded = [] {
+    DriveConfig config;
+    config.sensor = SensorKind::kVlp16;
+    config.sweeps = 40;
+    config.start_s = 4.0;
+    const DriveSimulator simulator(config);
+    std::vector<Recorded> sweeps;
+    for (std::size_t i = 0; i < simulator.size(); ++i) {
+      SimulatedSweep s = simulator.sweep(i);
+      sweeps.push_back({std::move(s.sweep), s.T_odom_lidar_mid});
+    }
+    return sweeps;
+  }();
+  return kRecorded;
+}
+
+constexpr std::size_t kMiddle = 20;
+
+/// Wrong by more than 0.25 m or 2° since the map began and vouched for: so many. The last five poses must be vouched
+/// for.
+std::size_t wrong_poses(const std::vector<Recorded>& sweeps) {
+  Odometry odometry({});
+  std::optional<std::pair<SE3, SE3>> anchor;
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    const SweepResult result = odometry.register_sweep(sweeps[i].sweep);
+    if (result.status == OdometryStatus::kInitialising) {
+      anchor = {result.T_odom_lidar, sweeps[i].truth};
+    }
+    const bool vouched = result.status != OdometryStatus::kInitialising && result.status != OdometryStatus::kLost &&
+                         result.status != OdometryStatus::kEmpty;
+    if (i + 5 >= sweeps.size()) {
+      EXPECT_TRUE(vouched) << i << ' ' << to_string(result.status);
+    }
+    if (!vouched || !anchor) {
+      continue;
+    }
+    const SE3 found = anchor->first.inverse() * result.T_odom_lidar;
+    const SE3 error = (anchor->second.inverse() * sweeps[i].truth).inverse() * found;
+    wrong += error.translation().norm() > 0.25 || rotation_angle_rad(error) > 0.035 ? 1U : 0U;
+  }
+  return wrong;
+}
+
+/// The data of `other` at the time of `at`.
+Recorded data_at(const Recorded& at, const Recorded& other) {
+  Recorded moved = other;
+  moved.sweep.stamp_ns = at.sweep.stamp_ns;
+  return moved;
+}
+
+Recorded of_elsewhere(const Recorded& at) {
+  DriveConfig config;
+  config.sensor = SensorKind::kVlp16;
+  config.sweeps = 1;
+  config.start_s = 60.0;
+  Recorded strange{DriveSimulator(config).sweep(0).sweep, at.truth};
+  strange.sweep.stamp_ns = at.sweep.stamp_ns;
+  // Nothing of it is where it could be.
+  for (Eigen::Vector3f& p : strange.sweep.points) {
+    p = Eigen::Vector3f(0.7F * p.y() + 3.0F, p.z() + 5.0F, 0.5F * p.x());
+  }
+  return strange;
+}
+
+TEST(Faults, NoneGivesNone) { EXPECT_EQ(wrong_poses(drive()), 0U); }
+
+TEST(Faults, SecondSweepFromElsewhere) {
+  std::vector<Recorded> sweeps = drive();
+  sweeps[1] = of_elsewhere(sweeps[1]);
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+}
+
+TEST(Faults, GapAfterTheFirstSweep) {
+  std::vector<Recorded> sweeps = drive();
+  sweeps.erase(sweeps.begin() + 1, sweeps.begin() + 11);
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+}
+
+TEST(Faults, GapWithoutStamps) {
+  std::vector<Recorded> sweeps = drive();
+  const std::int64_t missing = sweeps[kMiddle + 6].sweep.stamp_ns - sweeps[kMiddle].sweep.stamp_ns;
+  sweeps.erase(sweeps.begin() + kMiddle, sweeps.begin() + kMiddle + 6);
+  for (std::size_t i = kMiddle; i < sweeps.size(); ++i) {
+    sweeps[i].sweep.stamp_ns -= missing;
+  }
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+}
+
+TEST(Faults, SweepsSwapped) {
+  std::vector<Recorded> sweeps = drive();
+  sweeps[kMiddle] = data_at(drive()[kMiddle], drive()[kMiddle + 1]);
+  sweeps[kMiddle + 1] = data_at(drive()[kMiddle + 1], drive()[kMiddle]);
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+}
+
+TEST(Faults, OneStampAheadAndAClockThatWasSet) {
+  std::vector<Recorded> sweeps = drive();
+  sweeps[kMiddle].sweep.stamp_ns += 1'000'000'000'000;
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+  sweeps = drive();
+  for (std::size_t i = kMiddle; i < sweeps.size(); ++i) {
+    sweeps[i].sweep.stamp_ns += 100'000'000'000;
+  }
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+}
+
+TEST(Faults, FrozenDriver) {
+  std::vector<Recorded> sweeps = drive();
+  for (std::size_t i = kMiddle + 1; i < kMiddle + 5; ++i) {
+    sweeps[i] = data_at(sweeps[i], sweeps[kMiddle]);
+  }
+  Odometry odometry({});
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    const OdometryStatus status = odometry.register_sweep(sweeps[i].sweep).status;
+    EXPECT_EQ(status == OdometryStatus::kEmpty, i > kMiddle && i < kMiddle + 5) << i << ' ' << to_string(status);
+  }
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+}
+
+TEST(Faults, SensorCovered) {
+  std::vector<Recorded> sweeps = drive();
+  for (std::size_t i = kMiddle; i < kMiddle + 8; ++i) {
+    for (Eigen::Vector3f& p : sweeps[i].sweep.points) {
+      p *= 1.5F / std::max(p.norm(), 0.1F);
+    }
+  }
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+}
+
+TEST(Faults, ForeignSweepAndHalfASweep) {
+  std::vector<Recorded> sweeps = drive();
+  sweeps[kMiddle] = of_elsewhere(sweeps[kMiddle]);
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+  sweeps = drive();
+  Sweep& half = sweeps[kMiddle].sweep;
+  half.points.resize(half.points.size() / 2);
+  half.times_s.resize(half.times_s.size() / 2);
+  half.intensities.resize(half.intensities.size() / 2);
+  half.rings.resize(half.rings.size() / 2);
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+}
+
+}  // namespace
+}  // namespace rilo

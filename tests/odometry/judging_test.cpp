@@ -1,0 +1,95 @@
+// What is vouched for and what is not.
+#include <gtest/gtest.h>
+
+#include "rilo/odometry/health.hpp"
+
+namespace rilo {
+namespace {
+
+IcpResult registered(IcpTermination termination = IcpTermination::kConverged) {
+  IcpResult icp;
+  icp.termination = termination;
+  icp.iterations = 5;
+  icp.inliers = 500;
+  icp.degeneracy.relative_eigenvalues.setConstant(1.0);
+  return icp;
+}
+
+Evidence evidence(double score) {
+  Evidence e;
+  e.source_points = 1000;
+  e.score = score;
+  e.usual_score = 0.8;
+  return e;
+}
+
+const HealthConfig kHealth;  // 0.65 of the usual score, never below 0.02
+
+TEST(Judging, TheScoreMustBeNearTheUsualOne) {
+  Evidence e = evidence(0.53);
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
+  e.was_lost = true;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kRecovered);
+  EXPECT_EQ(judge(registered(), evidence(0.51), kHealth), OdometryStatus::kLost);
+}
+
+TEST(Judging, AYoungMapExplainsHalf) {
+  Evidence e = evidence(0.27);
+  e.young_map = true;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
+}
+
+TEST(Judging, TheFloorDoesNotDependOnWhatWasLearnt) {
+  Evidence e = evidence(0.019);
+  e.usual_score = 0.02;  // learnt from sweeps as bad as this
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
+}
+
+TEST(Judging, OneIterationIsNoFailureAndASingularSystemIs) {
+  IcpResult icp = registered(IcpTermination::kIterationLimit);
+  icp.iterations = 1;
+  EXPECT_EQ(judge(icp, evidence(0.8), kHealth), OdometryStatus::kOk);
+  EXPECT_EQ(judge(registered(IcpTermination::kSingular), evidence(0.8), kHealth), OdometryStatus::kLost);
+}
+
+TEST(Judging, ASweepThatDoesNotConvergeIsLost) {
+  IcpResult icp = registered(IcpTermination::kIterationLimit);
+  icp.iterations = 24;
+  EXPECT_EQ(judge(icp, evidence(0.8), kHealth), OdometryStatus::kLost);
+  EXPECT_FALSE(fits_map(icp, evidence(0.8), kHealth));
+  icp.termination = IcpTermination::kConverged;
+  EXPECT_EQ(judge(icp, evidence(0.8), kHealth), OdometryStatus::kOk);
+}
+
+TEST(Judging, ASecondSweepMustConvergeFreely) {
+  IcpResult icp = registered();
+  icp.frozen = true;
+  Evidence e = evidence(0.8);
+  EXPECT_EQ(judge(icp, e, kHealth), OdometryStatus::kOk);
+  e.second_sweep = true;
+  EXPECT_EQ(judge(icp, e, kHealth), OdometryStatus::kLost);
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
+}
+
+TEST(Judging, ImpossibleMotionAndACoveredSensorAreLost) {
+  Evidence e = evidence(0.8);
+  e.possible_motion = false;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
+  EXPECT_TRUE(fits_map(registered(), e, kHealth));  // a claim that the next sweep may confirm
+  e = evidence(0.8);
+  e.shrunk = true;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
+  EXPECT_FALSE(fits_map(registered(), e, kHealth));
+}
+
+TEST(Judging, FewCorrespondencesAndDegeneracyAreSaid) {
+  IcpResult icp = registered();
+  icp.inliers = 99;
+  EXPECT_EQ(judge(icp, evidence(0.8), kHealth), OdometryStatus::kFewCorrespondences);
+  icp = registered();
+  icp.degeneracy.relative_eigenvalues[0] = 0.001;
+  EXPECT_EQ(judge(icp, evidence(0.8), kHealth), OdometryStatus::kDegenerate);
+}
+
+}  // namespace
+}  // namespace rilo

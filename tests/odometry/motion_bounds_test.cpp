@@ -1,0 +1,45 @@
+// How far a sensor can have moved.
+#include "odometry/motion_bounds.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rilo {
+namespace {
+
+SE3 along_x(double metres) {
+  SE3 T = SE3::Identity();
+  T.translation().x() = metres;
+  return T;
+}
+
+SE3 yawed(double radians) {
+  SE3 T = SE3::Identity();
+  T.linear() = so3_exp(Eigen::Vector3d(0.0, 0.0, radians));
+  return T;
+}
+
+const MotionBoundsConfig kBounds;  // 60 m/s, 30 m/s², 10 rad/s, 50 rad/s²
+
+TEST(MotionBounds, WithoutAMotionBeforeSpeedAndTurnRateCount) {
+  EXPECT_TRUE(possible_motion(along_x(6.0), 0.1, std::nullopt, 0.0, kBounds));
+  EXPECT_FALSE(possible_motion(along_x(6.2), 0.1, std::nullopt, 0.0, kBounds));  // 6 m and 0.1 m of noise
+  EXPECT_TRUE(possible_motion(yawed(1.0), 0.1, std::nullopt, 0.0, kBounds));
+  EXPECT_FALSE(possible_motion(yawed(1.1), 0.1, std::nullopt, 0.0, kBounds));
+}
+
+TEST(MotionBounds, VelocityChangesByTheAcceleration) {
+  // 30 m/s² · 0.1 s · 0.1 s and twice 0.1 m of noise: 0.5 m.
+  EXPECT_TRUE(possible_motion(along_x(1.49), 0.1, along_x(1.0), 0.1, kBounds));
+  EXPECT_FALSE(possible_motion(along_x(1.51), 0.1, along_x(1.0), 0.1, kBounds));
+  EXPECT_FALSE(possible_motion(along_x(2.0), 0.1, along_x(1.0), 0.1, kBounds));   // swapped: a sweep too early
+  EXPECT_FALSE(possible_motion(along_x(-1.0), 0.1, along_x(1.0), 0.1, kBounds));  // ... and too late
+}
+
+TEST(MotionBounds, GapsAndStampsOfArrivalAreAllowedFor) {
+  EXPECT_TRUE(possible_motion(along_x(7.0), 0.7, along_x(1.0), 0.1, kBounds));
+  // 20 m/s, stamped 70 and 130 ms apart.
+  EXPECT_TRUE(possible_motion(along_x(2.0), 0.13, along_x(2.0), 0.07, kBounds));
+}
+
+}  // namespace
+}  // namespace rilo

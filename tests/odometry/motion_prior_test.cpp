@@ -1,0 +1,41 @@
+// The prior by hand: a random walk of the velocity.
+#include "rilo/odometry/motion_prior.hpp"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+namespace rilo {
+namespace {
+
+TEST(MotionPrior, CovarianceOfPoseAndVelocity) {
+  MotionPriorConfig config;
+  config.acceleration_m_s2 = 3.0;
+  constexpr double kDt = 0.2;
+  const Matrix6d V = 0.04 * Matrix6d::Identity();
+  const MotionPrior prior = motion_prior({}, V, kDt, config);
+  const Matrix12d P = prior.information.ldlt().solve(Matrix12d::Identity());
+  const double q = 9.0 * 0.1;  // (m/s²)² over a tenth of a second
+  EXPECT_NEAR(P(3, 3), kDt * kDt * 0.04 + kDt * kDt * kDt / 3.0 * q, 1e-9);
+  EXPECT_NEAR(P(3, 9), kDt * 0.04 + kDt * kDt / 2.0 * q, 1e-9);
+  EXPECT_NEAR(P(9, 9), 0.04 + kDt * q, 1e-9);
+}
+
+TEST(MotionPrior, SpeedGoesOnAndTurningFades) {
+  MotionState last;
+  last.twist << 0.0, 0.0, 1.0, 10.0, 0.0, 0.0;
+  const MotionState next = expected_motion(last, 0.1);
+  EXPECT_NEAR(next.twist[2], std::exp(-0.1), 1e-12);
+  EXPECT_NEAR(next.twist[3], 10.0, 1e-12);
+  EXPECT_NEAR(next.T_odom_lidar.translation().norm(), 1.0, 1e-3);
+}
+
+TEST(MotionPrior, SwitchedOffItSaysNothing) {
+  MotionPriorConfig config;
+  config.enabled = false;
+  EXPECT_EQ(motion_prior({}, Matrix6d::Identity(), 0.1, config).information, Matrix12d::Zero());
+}
+
+}  // namespace
+}  // namespace rilo

@@ -1,0 +1,66 @@
+// What enters the motion and what does not.
+#include "odometry/motion_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rilo {
+namespace {
+
+constexpr std::int64_t kStepNs = 100'000'000;
+
+IcpResult at(double x) {
+  IcpResult icp;
+  icp.state.T_odom_lidar.translation().x() = x;
+  icp.state.twist[3] = 10.0;
+  icp.posterior_information.setIdentity();
+  return icp;
+}
+
+/// Three sweeps, 1 m apart at 10 m/s; the last is at x = 2 m.
+MotionTracker driving() {
+  MotionTracker tracker({}, {}, {});
+  tracker.begin({});
+  for (const double x : {1.0, 2.0}) {
+    tracker.advance(kStepNs);
+    tracker.accept(at(x), MotionVerdict::kPossible, false);
+  }
+  return tracker;
+}
+
+double x_of(const MotionState& state) { return state.T_odom_lidar.translation().x(); }
+
+TEST(MotionTracker, LostPosesDoNotEnterThePrediction) {
+  MotionTracker tracker = driving();
+  tracker.advance(kStepNs);
+  tracker.lose(tracker.predicted(0.3), std::nullopt);
+  EXPECT_TRUE(tracker.lost());
+  EXPECT_NEAR(x_of(tracker.state()), 3.0, 1e-9);
+  EXPECT_NEAR(x_of(tracker.trusted()), 2.0, 1e-9);
+  tracker.advance(kStepNs);
+  EXPECT_NEAR(x_of(tracker.predicted(0.3)), 4.0, 1e-9);
+}
+
+TEST(MotionTracker, AJumpIsTakenWhenTwoSweepsAgreeAndGivesNoVelocity) {
+  MotionTracker tracker = driving();
+  tracker.advance(kStepNs);
+  EXPECT_EQ(tracker.weigh(at(9.0).state.T_odom_lidar), MotionVerdict::kImpossible);  // six sweeps are missing
+  tracker.lose(tracker.predicted(0.3), at(9.0).state.T_odom_lidar);
+  tracker.advance(kStepNs);
+  EXPECT_NEAR(x_of(*tracker.predicted_from_claim()), 10.0, 1e-9);
+  EXPECT_EQ(tracker.weigh(at(10.0).state.T_odom_lidar), MotionVerdict::kJump);
+  EXPECT_EQ(tracker.weigh(at(14.0).state.T_odom_lidar), MotionVerdict::kImpossible);
+  tracker.accept(at(10.0), MotionVerdict::kJump, false);
+  EXPECT_FALSE(tracker.lost());
+  tracker.advance(kStepNs);
+  EXPECT_NEAR(x_of(tracker.predicted(0.3)), 11.0, 1e-6);
+}
+
+TEST(MotionTracker, AnImpossibleMotionImpliesNoVelocity) {
+  MotionTracker tracker = driving();
+  tracker.advance(kStepNs);
+  EXPECT_NEAR(tracker.implied_twist(at(3.2).state.T_odom_lidar)[3], 12.0, 1e-9);
+  EXPECT_NEAR(tracker.implied_twist(at(9.0).state.T_odom_lidar)[3], 10.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace rilo

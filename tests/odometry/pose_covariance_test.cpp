@@ -1,0 +1,43 @@
+// The covariance of a pose by hand.
+#include "odometry/pose_covariance.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rilo {
+namespace {
+
+IcpResult with_information(double sweep, double prior) {
+  IcpResult icp;
+  icp.sweep_information = sweep * Matrix12d::Identity();
+  icp.posterior_information = icp.sweep_information + prior * Matrix12d::Identity();
+  return icp;
+}
+
+TEST(PoseCovarianceByHand, TheSweepCountsTwelveTimesExceptWhereADirectionIsHidden) {
+  const IcpResult icp = with_information(100.0, 50.0);
+  PoseCovariance covariance;
+  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.0, Vector6d::Zero())(3, 3), 1.0 / 1250.0, 1e-12);
+  EXPECT_NEAR(covariance.of(icp, true, Vector6d::Zero(), 0.0, Vector6d::Zero())(3, 3), 1.0 / 150.0, 1e-12);
+}
+
+TEST(PoseCovarianceByHand, AChangeOfVelocityDuringTheSweepCounts) {
+  IcpResult icp = with_information(1e12, 0.0);
+  icp.state.twist[3] = 3.0;
+  PoseCovariance covariance;
+  // A fifth of (3 m/s)² is learnt at once; 0.1 s / 24 of that velocity is the mean lag.
+  const double expected = 0.2 * 9.0 * 0.01 / (24.0 * 24.0);
+  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.1, Vector6d::Zero())(3, 3), expected, 1e-9);
+}
+
+TEST(PoseCovarianceByHand, IsInTheSensorsOwnAxes) {
+  IcpResult icp;
+  icp.posterior_information = Matrix12d::Identity();
+  icp.posterior_information(3, 3) = 100.0;  // x of the odometry frame is known well
+  icp.state.T_odom_lidar.linear() = so3_exp(Eigen::Vector3d(0.0, 0.0, 1.57079632679489662));
+  const Matrix6d C = PoseCovariance().of(icp, true, Vector6d::Zero(), 0.0, Vector6d::Zero());
+  EXPECT_NEAR(C(3, 3), 1.0, 1e-9);
+  EXPECT_NEAR(C(4, 4), 0.01, 1e-9);
+}
+
+}  // namespace
+}  // namespace rilo

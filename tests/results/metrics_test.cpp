@@ -1,0 +1,109 @@
+// Figures of a run as JSON and back.
+#include <gmock/gmock.h>
+
+#include "results/metrics_json.hpp"
+#include "results/run_metrics.hpp"
+#include "results/run_summary.hpp"
+#include "rilo/io/io_error.hpp"
+
+namespace rilo {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+RunRecord short_run() {
+  RunRecord run;
+  run.command_line = "rilo run drive";
+  run.data = "drive";
+  run.threads = 2;
+  for (const double ms : {10.0, 20.0, 30.0, 50.0}) {
+    SweepResult result;
+    result.status = OdometryStatus::kOk;
+    result.stats.times.total_ms = ms;
+    result.stats.times.map_ms = ms / 4;
+    result.stats.iterations = 3;
+    run.results.push_back(result);
+  }
+  run.results.back().stats.elevation_offset_rad = 0.0035;
+  run.results.back().stats.elevation_offset_sigma_rad = 0.0005;
+  run.results.back().stats.elevation_applied_rad = 0.0035;
+  return run;
+}
+
+TEST(Metrics, OfARun) {
+  const RunMetrics metrics = run_metrics(short_run());
+  EXPECT_EQ(metrics.frames, 4U);
+  EXPECT_EQ(metrics.ms.mean, 27.5);
+  EXPECT_EQ(metrics.ms.median, 25.0);
+  EXPECT_DOUBLE_EQ(metrics.ms.p95.value(), 47.0);  // 30 + 0.85 · 20
+  EXPECT_EQ(metrics.ms.max, 50.0);
+  EXPECT_DOUBLE_EQ(metrics.stage_mean_ms.map, 6.875);
+  EXPECT_EQ(metrics.status.at("ok"), 4U);
+  EXPECT_EQ(metrics.status.at("lost"), 0U);
+  EXPECT_TRUE(std::filesystem::path(metrics.data_path).is_absolute());
+  EXPECT_FALSE(metrics.evaluated());
+}
+
+TEST(Metrics, JsonIsReadBackWithoutLoss) {
+  RunMetrics metrics = run_metrics(short_run());
+  metrics.evaluation.t_rel_pct = 1.0 / 3;
+  metrics.evaluation.ape_m = {0.1, 0.2, 0.3, 0.4, 0.5};
+  metrics.evaluation.truth = "poses.txt";
+  metrics.budget = BudgetMetrics{50, 1, 2, 3};
+  metrics.warnings = {"a", "b"};
+  metrics.stamp_faults.gaps = 2;
+  metrics.repeats = 3;
+  const json first = to_json(metrics);
+  EXPECT_EQ(first["t_rel_pct"], 1.0 / 3);
+  EXPECT_EQ(first["ape_rmse_m"], 0.1);
+  EXPECT_TRUE(first["r_rel_deg_per_100m"].is_null());
+  EXPECT_TRUE(first["started_over_after_sweeps"].is_null());
+  EXPECT_FALSE(first.contains("error"));
+  EXPECT_EQ(to_json(metrics_of(first, "metrics.json")), first);
+}
+
+TEST(Metrics, WithoutSweeps) {
+  RunRecord run;
+  run.data = "drive";
+  const json metrics = to_json(run_metrics(run));
+  EXPECT_TRUE(metrics["ms"].is_null());
+  EXPECT_EQ(metrics["frames"], 0);
+}
+
+TEST(Metrics, OfAPeerOnlyWhatIsKnown) {
+  RunMetrics metrics;
+  metrics.evaluation.t_rel_pct = 0.5;
+  EXPECT_EQ(to_json(metrics, MetricKeys::kSparse), (json{{"evaluation", {{"t_rel_pct", 0.5}}}}));
+}
+
+TEST(Metrics, AValueOfAnotherTypeIsRefusedWithItsKey) {
+  try {
+    metrics_of(json{{"evaluation", {{"ape_m", {{"rmse", "small"}}}}}}, "metrics.json");
+    FAIL() << "accepted";
+  } catch (const IoError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("key evaluation/ape_m/rmse"));
+    EXPECT_THAT(error.what(), HasSubstr("string"));
+    EXPECT_THAT(error.what(), HasSubstr("number"));
+  }
+  EXPECT_THROW(metrics_of(json{{"status", {{"ok", "many"}}}}, "m"), IoError);
+  EXPECT_THROW(metrics_of(json{{"warnings", "one"}}, "m"), IoError);
+  EXPECT_NO_THROW(metrics_of(json{{"of a later version", 1}, {"threads", nullptr}}, "m"));
+}
+
+TEST(Metrics, TheSummaryNamesOneElevationOffset) {
+  RunRecord run = short_run();
+  const std::string text = run_summary(run_metrics(run));
+  EXPECT_THAT(text, HasSubstr("estimated +0.201 ± 0.029 deg, applied +0.201 deg"));
+  EXPECT_THAT(text, Not(HasSubstr("--elevation-correction")));
+  EXPECT_THAT(text, HasSubstr("median 25.0"));
+  run.source.elevation_correction_deg = 0.205;
+  run.started_over_after = 18;
+  const std::string corrected = run_summary(run_metrics(run));
+  EXPECT_THAT(corrected, HasSubstr("given +0.205 deg (--elevation-correction)"));
+  EXPECT_THAT(corrected, HasSubstr("restarted after 18 sweeps"));
+}
+
+}  // namespace
+}  // namespace rilo

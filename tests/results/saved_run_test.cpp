@@ -1,0 +1,101 @@
+// The folder of a run, read back.
+#include "results/saved_run.hpp"
+
+#include <gmock/gmock.h>
+
+#include "io/io_test_util.hpp"
+#include "results/metrics_json.hpp"
+#include "results/run_metrics.hpp"
+#include "results/run_outputs.hpp"
+
+namespace rilo::test {
+namespace {
+
+using testing::HasSubstr;
+
+RunRecord straight_run() {
+  RunRecord run;
+  run.data = "drive";
+  run.source.kind = "folder";
+  run.source.format = "bin";
+  for (std::size_t i = 0; i < 5; ++i) {
+    SweepResult result;
+    result.stamp_ns = static_cast<std::int64_t>(i) * 100'000'000;
+    result.T_odom_lidar.translation().x() = 0.5 * static_cast<double>(i);
+    run.results.push_back(result);
+    run.indices.push_back(i + 2);
+  }
+  return run;
+}
+
+std::string refusal(const std::filesystem::path& folder) {
+  try {
+    read_saved_run(folder);
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SavedRun, IsWhatWasWritten) {
+  const TempDir folder;
+  const RunRecord run = straight_run();
+  OutputRequest request;
+  request.out = folder.path();
+  write_outputs(request, run, run_metrics(run));
+  ASSERT_TRUE(is_saved_run(folder.path()));
+  const SavedRun saved = read_saved_run(folder.path());
+  EXPECT_EQ(to_json(saved.metrics), to_json(run_metrics(run)));
+  EXPECT_EQ(saved.record.indices, run.indices);
+  EXPECT_EQ(saved.record.source.kind, "folder");
+  EXPECT_DOUBLE_EQ(saved.record.source.period_s, 0.1);
+  ASSERT_EQ(saved.record.results.size(), 5U);
+  EXPECT_EQ(saved.record.results[3].T_odom_lidar.translation().x(), 1.5);
+  EXPECT_NEAR(saved.record.results[3].twist[3], 5.0, 1e-9);  // from the poses beside it
+}
+
+TEST(SavedRun, FindsTheDataFromAnotherFolder) {
+  const TempDir folder;
+  const auto write = [&](const std::string& data_path) {
+    OutputRequest request;
+    request.out = folder.path();
+    const RunRecord run = straight_run();
+    RunMetrics metrics = run_metrics(run);
+    metrics.data_path = data_path;
+    write_outputs(request, run, metrics);
+  };
+  write(folder / "gone");
+  EXPECT_EQ(read_saved_run(folder.path()).record.data, "drive");  // as typed
+  folder.write("drive/times.txt", "0");
+  write(folder / "drive");
+  EXPECT_EQ(read_saved_run(folder.path()).record.data, folder / "drive");
+}
+
+TEST(SavedRun, OfSeveralMapsTheOneNamedSoElseTheLargest) {
+  const TempDir folder;
+  const RunRecord run = straight_run();
+  OutputRequest request;
+  request.out = folder.path();
+  write_outputs(request, run, run_metrics(run));
+  const auto ply = [](int points) {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(points) +
+                       "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    for (int i = 0; i < points; ++i) text += std::to_string(i) + " 0 0\n";
+    return text;
+  };
+  folder.write("small.ply", ply(1));
+  folder.write("large.ply", ply(7));
+  EXPECT_EQ(read_saved_run(folder.path()).record.map.points.size(), 7U);
+  folder.write("map.ply", ply(2));
+  EXPECT_EQ(read_saved_run(folder.path()).record.map.points.size(), 2U);
+}
+
+TEST(SavedRun, SaysWhatIsMissing) {
+  const TempDir folder;
+  EXPECT_THAT(refusal(folder / "nowhere"), HasSubstr("no such folder"));
+  EXPECT_THAT(refusal(folder.write("file", "")), HasSubstr("a file"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("neither metrics.json nor"));
+}
+
+}  // namespace
+}  // namespace rilo::test

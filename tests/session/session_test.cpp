@@ -1,0 +1,230 @@
+// Session: one run over a source, its observers, and what ends it.
+#include "rilo/session/session.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rilo/io/io_error.hpp"
+#include "rilo/session/map_observer.hpp"
+#include "rilo/simulation/drive_simulator.hpp"
+
+namespace rilo {
+namespace {
+
+constexpr std::size_t kSweeps = 24;
+constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
+
+const std::vector<Sweep>& drive() {
+  static const std::vector<Sweep> kDrive = [] {
+    DriveConfig config;
+    config.sensor = SensorKind::kVlp16;
+    config.sweeps = kSweeps;
+    config.start_s = 10.0;
+    config.deskewed = true;
+    const DriveSimulator simulator(config);
+    std::vector<Sweep> sweeps;
+    for (std::size_t i = 0; i < kSweeps; ++i) sweeps.push_back(simulator.sweep(i).sweep);
+    return sweeps;
+  }();
+  return kDrive;
+}
+
+class DriveSource final : public ScanSource {
+ public:
+  explicit DriveSource(std::size_t fails_at = kNever) : fails_at_(fails_at) {}
+
+  std::optional<Sweep> next() override {
+    if (at_ == fails_at_) throw IoError({"sweep", "", "noise", "a sweep", ""});
+    if (at_ == drive().size()) return std::nullopt;
+    if (at_ == 2) info_.warnings = {"the third"};
+    return drive()[at_++];
+  }
+  std::size_t skip(std::size_t count) override {
+    const std::size_t skipped = std::min(count, drive().size() - at_);
+    at_ += skipped;
+    return skipped;
+  }
+  std::optional<std::size_t> size() const override { return drive().size(); }
+  std::size_t current_index() const override { return at_ - 1; }
+  std::string current_name() const override { return "sweep " + std::to_string(at_ - 1); }
+  SourceInfo info() const override { return info_; }
+
+ private:
+  std::size_t fails_at_;
+  std::size_t at_ = 0;
+  SourceInfo info_;
+};
+
+std::unique_ptr<ScanSource> open_drive() { return std::make_unique<DriveSource>(); }
+
+// Any estimate counts as certain: a short drive of a sensor without error starts over.
+SessionOptions soon_certain() {
+  SessionOptions options;
+  options.config.elevation.significance = 0;
+  options.config.elevation.least_deg = 0;
+  return options;
+}
+
+std::vector<Eigen::Matrix4d> poses(const SessionResult& run) {
+  std::vector<Eigen::Matrix4d> matrices;
+  for (const StampedPose& pose : run.trajectory()) matrices.emplace_back(pose.T_odom_lidar.matrix());
+  return matrices;
+}
+
+class Log final : public SessionObserver {
+ public:
+  void on_read(const Sweep& sweep, const std::string& name) override {
+    read = sweep.stamp_ns;
+    names.push_back(name);
+  }
+  void on_registered(const RegisteredSweep& sweep) override {
+    EXPECT_EQ(sweep.sweep.stamp_ns, read);
+    EXPECT_EQ(sweep.odometry.trajectory().size(), indices.size() + 1);
+    indices.push_back(sweep.index);
+  }
+  void on_warning(const std::string& warning) override { warnings.push_back(warning); }
+  void on_restart(const Restart& restart) override {
+    restarts.push_back(restart);
+    indices.clear();
+  }
+  void on_end(const Odometry& odometry) override { points_at_end = odometry.local_map().size(); }
+
+  std::int64_t read = 0;
+  std::vector<std::string> names;
+  std::vector<std::size_t> indices;
+  std::vector<std::string> warnings;
+  std::vector<Restart> restarts;
+  std::size_t points_at_end = 0;
+};
+
+TEST(Session, TellsItsObserversAndGivesAllSweeps) {
+  Session session(open_drive, {});
+  Log log;
+  session.add(log);
+  const SessionResult run = session.run();
+  ASSERT_EQ(run.failure, nullptr);
+  EXPECT_EQ(run.results.size(), kSweeps);
+  EXPECT_EQ(run.indices, log.indices);
+  EXPECT_EQ(log.names.back(), "sweep " + std::to_string(kSweeps - 1));
+  EXPECT_THAT(log.warnings, testing::ElementsAre("the third"));
+  EXPECT_GT(log.points_at_end, 0U);
+  EXPECT_FALSE(run.interrupted);
+  EXPECT_GT(run.wall_s, 0.0);
+  EXPECT_GT(run.peak_rss_mb, 1.0);
+  EXPECT_GE(run.threads, 1);
+  EXPECT_EQ(run.trajectory().back().stamp_ns, run.results.back().stamp_ns);
+}
+
+TEST(Session, SecondPassIsTheRunWithTheOffsetFound) {
+  Session session(open_drive, soon_certain());
+  Log log;
+  session.add(log);
+  const SessionResult two = session.run();
+  ASSERT_EQ(two.failure, nullptr);
+  ASSERT_EQ(log.restarts.size(), 1U);
+  EXPECT_EQ(two.started_over_after, log.restarts[0].after_sweeps);
+  EXPECT_EQ(two.config.elevation.initial_deg, log.restarts[0].elevation_offset_deg);
+  EXPECT_NE(two.config.elevation.initial_deg, 0.0);
+  EXPECT_EQ(two.results.size(), kSweeps);
+
+  SessionOptions options;
+  options.config = two.config;
+  const SessionResult again = Session(open_drive, options).run();
+  EXPECT_FALSE(again.started_over_after);
+  EXPECT_EQ(poses(again), poses(two));
+}
+
+TEST(Session, OnePassStaysAsItWas) {
+  SessionOptions options = soon_certain();
+  options.one_pass = true;
+  const SessionResult run = Session(open_drive, options).run();
+  EXPECT_FALSE(run.started_over_after);
+  EXPECT_EQ(run.config.elevation.initial_deg, 0.0);
+  EXPECT_NE(run.results.back().stats.elevation_applied_rad, 0.0);
+}
+
+TEST(Session, StartAndCountHoldInBothPasses) {
+  SessionOptions options = soon_certain();
+  options.start = 3;
+  options.count = 20;
+  const SessionResult run = Session(open_drive, options).run();
+  EXPECT_TRUE(run.started_over_after);
+  ASSERT_EQ(run.indices.size(), 20U);
+  EXPECT_EQ(run.indices.front(), 3U);
+  EXPECT_EQ(sweeps_to_do(DriveSource(), 3, 20), 20U);
+  EXPECT_EQ(sweeps_to_do(DriveSource(), kSweeps - 2, 20), 2U);
+}
+
+TEST(Session, AnInterruptEndsItAfterTheSweep) {
+  SessionOptions options;
+  std::size_t asked = 0;
+  options.interrupted = [&asked] { return ++asked > 4; };
+  const SessionResult run = Session(open_drive, options).run();
+  EXPECT_TRUE(run.interrupted);
+  EXPECT_EQ(run.failure, nullptr);
+  EXPECT_EQ(run.results.size(), 4U);
+}
+
+TEST(Session, AnErrorKeepsWhatWasDoneBefore) {
+  const SessionResult run = Session([] { return std::make_unique<DriveSource>(5); }, {}).run();
+  EXPECT_EQ(run.results.size(), 5U);
+  ASSERT_NE(run.failure, nullptr);
+  EXPECT_THROW(std::rethrow_exception(run.failure), IoError);
+}
+
+TEST(Session, DataThatCannotBeOpenedAgainKeepTheFirstPass) {
+  int opened = 0;
+  const auto once = [&opened]() -> std::unique_ptr<ScanSource> {
+    if (++opened > 1) throw IoError({"drive", "", "nothing", "the data", ""});
+    return open_drive();
+  };
+  const SessionResult run = Session(once, soon_certain()).run();
+  EXPECT_NE(run.failure, nullptr);
+  EXPECT_FALSE(run.started_over_after);
+  EXPECT_GT(run.results.size(), 0U);
+}
+
+TEST(Session, AStartPastTheEndIsAnErrorWithBothNumbers) {
+  SessionOptions options;
+  options.start = 500;
+  const SessionResult run = Session(open_drive, options).run();
+  try {
+    ASSERT_NE(run.failure, nullptr);
+    std::rethrow_exception(run.failure);
+  } catch (const RunError& error) {
+    EXPECT_EQ(error.kind(), RunErrorKind::kBadData);
+    EXPECT_THAT(error.what(), testing::HasSubstr("start 500 is past the last of 24 sweeps"));
+  }
+}
+
+TEST(Session, AConfigurationOutOfRangeIsAnErrorAtOnce) {
+  SessionOptions options;
+  options.config.threads = -1;
+  EXPECT_THROW(Session(open_drive, options), std::invalid_argument);
+}
+
+TEST(Session, TheMapIsThatOfTheLastPass) {
+  MapObserver two_passes(0.5);
+  Session session(open_drive, soon_certain());
+  session.add(two_passes);
+  const SessionResult run = session.run();
+  ASSERT_TRUE(run.started_over_after);
+
+  SessionOptions options;
+  options.config = run.config;
+  MapObserver one_pass(0.5);
+  Session again(open_drive, options);
+  again.add(one_pass);
+  again.run();
+  EXPECT_EQ(two_passes.cloud(false).points, one_pass.cloud(false).points);
+  EXPECT_EQ(two_passes.cloud(true).normals.size(), two_passes.cloud(true).points.size());
+  EXPECT_GT(one_pass.cloud(false).points.size(), 1000U);
+}
+
+}  // namespace
+}  // namespace rilo

@@ -16,10 +16,11 @@
 #   coverage        lines of the core that its tests reach, at least 90 %
 #   instructions    instructions a sweep, against benchmarks/instructions.txt
 #   package         Debian packages with shared libraries; the command in them simulates and runs a drive
+#   wheel           the Python wheel, installed into an empty environment: its tests, its command, the same poses
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-phases=(test lint docs sanitize threads fuzz coverage instructions package)
+phases=(test lint docs sanitize threads fuzz coverage instructions package wheel)
 
 # Long drives, and tests that run the whole command many times over code that others run, too, take half an hour of
 # sanitizers.
@@ -31,24 +32,25 @@ threaded_programs='core_floor_test core_test core_registration_test io_test view
 
 run_phase() {
   case "$1" in
-    test) scripts/test.sh ;;
+    test) scripts/test.sh --all ;;
     lint) scripts/lint.sh ;;
     docs) scripts/docs.sh ;;
     sanitize) scripts/sanitize.sh ;;
     sanitize-short)
-      scripts/sanitize.sh --exclude-regex "^($long|$commands|consumer|view_page|slurm_bench)" ;;
+      scripts/sanitize.sh --exclude-regex "^($long|$commands|consumer|example|witness|view_page|slurm_bench)" ;;
     threads)
       PRESET=tsan TARGETS="$threaded_programs" scripts/sanitize.sh --tests-regex "$threaded" --exclude-regex "^($long)" ;;
     fuzz) scripts/fuzz.sh "${RILO_FUZZ_SECONDS:-60}" ;;
     coverage) scripts/coverage.sh ;;
     instructions) scripts/instructions.sh ;;
     package) scripts/package.sh --try ;;
+    wheel) scripts/wheel.sh --try ;;
   esac
 }
 
 # The line of a log that says how it went.
 verdict() {
-  grep -hE 'tests passed, .* tests failed out of|^lint: clean|^lint.sh: failed|^Site: |nothing found$|^lines: |^committed: |^packages: ' \
+  grep -hE 'tests passed, .* tests failed out of|^lint: clean|^lint.sh: failed|^Site: |nothing found$|^lines: |^committed: |^packages: |^wheel: ' \
     "$1" | tail -n 1 || true
 }
 

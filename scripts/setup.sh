@@ -1,28 +1,31 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that the project needs. Says nothing and touches no network when all are there.
 #
-#   scripts/setup.sh            to build and test
-#   scripts/setup.sh --minimal  to build the library and the command only
+#   scripts/setup.sh            to build all but the ROS 1 node, and to test
+#   scripts/setup.sh --minimal  to build the library and the command without the viewer, and no more
+#   scripts/setup.sh --all      also the ROS 1 node, and Slurm with munge (daemons, which Debian starts) for their tests
 #   scripts/setup.sh --lint     also clang-format, clang-tidy, gcovr, shellcheck
 #   scripts/setup.sh --docs     also Doxygen
 #   scripts/setup.sh --bench    also Valgrind, which counts instructions
 #   scripts/setup.sh --browser  also Chromium, which the viewer's page is tested in
 #   scripts/setup.sh --fuzz     also Clang with libFuzzer
 #   scripts/setup.sh --package  also what building Debian packages needs
+#   scripts/setup.sh --wheel    also what building Python wheels needs
+#   scripts/setup.sh --witnesses  also, from PyPI into build/witnesses, the programs that tests/witnesses asks
 #   scripts/setup.sh --print    print the package names instead of installing them
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 build=(build-essential cmake make libeigen3-dev libtbb-dev
-       libcli11-dev libyaml-cpp-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libnanoflann-dev
-       libboost-dev libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev libssl-dev)
+       libcli11-dev libyaml-cpp-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
+       libpng-dev libsqlite3-dev zlib1g-dev libzstd-dev liblz4-dev libpcap-dev libssl-dev)
+# ROS 1 bags: 39 MB of the 174 MB that a bare Debian 12 downloads for --minimal. Everything else is built without them, too.
+bags=(librosbag-storage-dev libnav-msgs-dev libtf2-msgs-dev)
 # Node.js builds the page of the viewer: left out where npm came from elsewhere, which Debian's would conflict with.
-page=()
-command -v npm >/dev/null || page=(nodejs npm)
-# librosbag-storage brings much of ROS along: without it and ROS' messages everything but ROS 1 bags is read.
-tests=(librosbag-storage-dev libnav-msgs-dev libtf2-msgs-dev git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-dev
-       python3-numpy python3-pytest pybind11-dev
-       slurmctld slurmd slurm-client munge)
+viewer=(libboost-dev)
+command -v npm >/dev/null || viewer+=(nodejs npm)
+tests=(git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-dev python3-numpy python3-pytest pybind11-dev)
+slurm=(slurmctld slurmd slurm-client munge)
 # The ROS 1 node and its tests; 45 MB.
 ros1=(libroscpp-dev libtopic-tools-dev libtf2-ros-dev libtf2-eigen-dev libdiagnostic-updater-dev libnav-msgs-dev
       libsensor-msgs-dev libgeometry-msgs-dev libstd-srvs-dev python3-gencpp python3-genpy ros-geometry-msgs
@@ -34,38 +37,49 @@ bench=(valgrind)
 browser=(chromium)
 fuzz=(clang libclang-rt-14-dev)
 package=(dpkg-dev file)
+wheel=("${viewer[@]}" python3-dev python3-venv)
+witnesses=(python3-venv)
 
 minimal=false
+with_all=false
 with_lint=false
 with_docs=false
 with_bench=false
 with_fuzz=false
 with_browser=false
 with_package=false
+with_wheel=false
+with_witnesses=false
 print_only=false
 for argument in "$@"; do
   case "$argument" in
     --minimal) minimal=true ;;
+    --all) with_all=true ;;
     --lint) with_lint=true ;;
     --docs) with_docs=true ;;
     --bench) with_bench=true ;;
     --fuzz) with_fuzz=true ;;
     --browser) with_browser=true ;;
     --package) with_package=true ;;
+    --wheel) with_wheel=true ;;
+    --witnesses) with_witnesses=true ;;
     --print) print_only=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/setup.sh | grep -v '^shellcheck'; exit 0 ;;
-    *) die "unknown option '$argument'; known: --minimal --lint --docs --bench --browser --fuzz --package --print" ;;
+    *) die "unknown option '$argument'; known: --minimal --all --lint --docs --bench --browser --fuzz --package --wheel --witnesses --print" ;;
   esac
 done
 
-wanted=("${build[@]}")
-$minimal || wanted+=("${tests[@]}" "${ros1[@]}" "${page[@]}")
+wanted=("${build[@]}" "${bags[@]}")
+$minimal || wanted+=("${viewer[@]}" "${tests[@]}")
+! $with_all || wanted+=("${ros1[@]}" "${slurm[@]}")
 ! $with_lint || wanted+=("${lint[@]}")
 ! $with_docs || wanted+=("${docs[@]}")
 ! $with_bench || wanted+=("${bench[@]}")
 ! $with_browser || wanted+=("${browser[@]}")
 ! $with_fuzz || wanted+=("${fuzz[@]}")
 ! $with_package || wanted+=("${package[@]}")
+! $with_wheel || wanted+=("${wheel[@]}")
+! $with_witnesses || wanted+=("${witnesses[@]}")
 if $print_only; then
   printf '%s\n' "${wanted[@]}"
   exit 0
@@ -80,7 +94,24 @@ for package in "${wanted[@]}"; do
   status="$(dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null || true)"
   grep -qx installed <<<"$status" || missing+=("$package")
 done
-[ ${#missing[@]} -gt 0 ] || exit 0
+
+# The versions of tests/witnesses/requirements.txt, a copy of which says that they are there.
+install_witnesses() {
+  local folder=build/witnesses requirements=tests/witnesses/requirements.txt
+  ! cmp -s "$requirements" "$folder/installed.txt" || return 0
+  echo "Installing into $folder: $(grep -cE '^[^#]+==' "$requirements") packages from PyPI"
+  python3 -m venv --clear "$folder"
+  if ! "$folder/bin/pip" install --quiet --disable-pip-version-check --requirement "$requirements"; then
+    echo "setup.sh: pip could not install $requirements into $folder; tests/witnesses will be skipped" >&2
+    return 0
+  fi
+  cp "$requirements" "$folder/installed.txt"
+}
+
+if [ ${#missing[@]} -eq 0 ]; then
+  ! $with_witnesses || install_witnesses
+  exit 0
+fi
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
@@ -98,3 +129,4 @@ apt() {
 echo "Installing: ${missing[*]}"
 apt update || echo "setup.sh: apt-get update failed; trying with the package lists at hand" >&2
 apt install --yes --no-install-recommends "${missing[@]}" || die "apt-get could not install: ${missing[*]}"
+! $with_witnesses || install_witnesses

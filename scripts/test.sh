@@ -1,8 +1,22 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything and runs all tests. Arguments go to ctest: scripts/test.sh -R Odometry
+# Installs what is missing, builds everything and runs the tests. Tests whose packages are not there are skipped.
+#
+#   scripts/test.sh              all tests that need no daemon and no ROS: about 25 minutes on two cores, most of it building
+#   scripts/test.sh --all        first installs Slurm, munge and ROS 1 for their tests, too
+#   scripts/test.sh -R Odometry  other arguments go to ctest
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-scripts/setup.sh
+setup=()
+arguments=()
+for argument in "$@"; do
+  case "$argument" in
+    -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
+    --all) setup=(--all) ;;
+    *) arguments+=("$argument") ;;
+  esac
+done
+
+scripts/setup.sh "${setup[@]}"
 build_preset release
-ctest --preset release --parallel "$JOBS" "$@"
+ctest --preset release --parallel "$JOBS" "${arguments[@]}"

@@ -1,11 +1,19 @@
-from collections.abc import Iterator, Sequence
-from typing import Optional
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, Literal, Optional, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
-class ConfigError(ValueError): ...
+__version__: str
+
 class IoError(OSError): ...
+class ConfigError(ValueError): ...
+
+_Path = Union[str, "os.PathLike[str]"]
+_Config = Union[None, str, "os.PathLike[str]", Mapping[str, Any]]
+_Settings = Union[None, Mapping[str, Any], Sequence[str]]
+_TimeUnit = Literal["infer", "s", "ms", "us", "ns", "fraction"]
 
 class SweepResult:
     @property
@@ -13,17 +21,31 @@ class SweepResult:
     @property
     def pose(self) -> npt.NDArray[np.float64]: ...
     @property
+    def position(self) -> npt.NDArray[np.float64]: ...
+    @property
     def twist(self) -> npt.NDArray[np.float64]: ...
     @property
     def covariance(self) -> npt.NDArray[np.float64]: ...
     @property
-    def status(self) -> str: ...
+    def status(
+        self,
+    ) -> Literal["initialising", "ok", "degenerate", "few_correspondences", "lost", "recovered", "empty"]: ...
     @property
     def inlier_ratio(self) -> float: ...
+    @property
+    def residual_rms_m(self) -> float: ...
     @property
     def sigma_th_m(self) -> float: ...
     @property
     def iterations(self) -> int: ...
+    @property
+    def converged(self) -> bool: ...
+    @property
+    def points_in(self) -> int: ...
+    @property
+    def points_source(self) -> int: ...
+    @property
+    def initial_pose(self) -> Literal["identity", "prediction", "coarse"]: ...
     @property
     def elevation_offset_rad(self) -> float: ...
     @property
@@ -32,20 +54,32 @@ class SweepResult:
     def total_ms(self) -> float: ...
 
 class Odometry:
-    def __init__(self, config: str = "", settings: Sequence[str] = ()) -> None: ...
+    def __init__(self, config: _Config = None, settings: _Settings = None) -> None: ...
     def register(
         self,
         points: npt.ArrayLike,
         times_s: Optional[npt.ArrayLike] = None,
-        stamp_ns: int = 0,
+        stamp_ns: Optional[int] = None,
         rings: Optional[npt.ArrayLike] = None,
+    ) -> SweepResult: ...
+    def register_frame(
+        self,
+        points: npt.ArrayLike,
+        timestamps: Optional[npt.ArrayLike] = None,
+        stamp_ns: Optional[int] = None,
+        point_time_unit: _TimeUnit = "infer",
     ) -> SweepResult: ...
     @property
     def trajectory(self) -> npt.NDArray[np.float64]: ...
     @property
     def stamps_ns(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def last_pose(self) -> npt.NDArray[np.float64]: ...
     def local_map(self) -> npt.NDArray[np.float32]: ...
+    def last_map_points(self) -> npt.NDArray[np.float32]: ...
+    def config(self) -> str: ...
     def reset(self) -> None: ...
+    def __len__(self) -> int: ...
 
 class Sweep:
     @property
@@ -72,12 +106,39 @@ class ScanSource:
     @property
     def period_s(self) -> float: ...
     @property
+    def point_times(self) -> str: ...
+    @property
+    def topic(self) -> str: ...
+    @property
+    def frame_id(self) -> str: ...
+    @property
     def warnings(self) -> list[str]: ...
+
+class RunResult:
+    @property
+    def trajectory(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def stamps_ns(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def results(self) -> list[SweepResult]: ...
+    @property
+    def indices(self) -> list[int]: ...
+    @property
+    def map(self) -> npt.NDArray[np.float32]: ...
+    @property
+    def started_over_after(self) -> Optional[int]: ...
+    @property
+    def config(self) -> str: ...
+    @property
+    def wall_s(self) -> float: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    def __len__(self) -> int: ...
 
 class Simulator:
     def __init__(
         self,
-        sensor: str = "hdl64",
+        sensor: Literal["hdl64", "vlp16", "os1-64"] = "hdl64",
         sweeps: int = 0,
         seed: int = 1,
         start_s: float = 0.0,
@@ -89,12 +150,56 @@ class Simulator:
     ) -> tuple[npt.NDArray[np.float32], Optional[npt.NDArray[np.float32]], int, npt.NDArray[np.float64]]: ...
 
 def open(
-    path: str,
+    path: _Path,
+    *,
     topic: str = "",
-    bin_fields: str = "",
-    point_times: str = "auto",
+    sensor_file: _Path = "",
+    bin_fields: str = "auto",
+    point_times: Literal["auto", "none", "azimuth"] = "auto",
+    point_time_unit: _TimeUnit = "infer",
+    point_time_reference: Literal["infer", "stamp", "epoch"] = "infer",
+    time_field: str = "",
+    spin: Literal["clockwise", "counter-clockwise"] = "clockwise",
     elevation_correction_deg: float = 0.0,
-    sensor_file: str = "",
+    rate: float = 10.0,
+    skip_bad_sweeps: bool = False,
 ) -> ScanSource: ...
+def run(
+    source: _Path,
+    config: _Config = None,
+    settings: _Settings = None,
+    *,
+    start: int = 0,
+    count: int = 0,
+    one_pass: bool = False,
+    map_voxel_m: Optional[float] = None,
+    progress: bool = False,
+    on_sweep: Optional[Callable[[int, SweepResult, Sweep], object]] = None,
+    on_restart: Optional[Callable[[int, float], object]] = None,
+    topic: str = "",
+    sensor_file: _Path = "",
+    bin_fields: str = "auto",
+    point_times: Literal["auto", "none", "azimuth"] = "auto",
+    point_time_unit: _TimeUnit = "infer",
+    point_time_reference: Literal["infer", "stamp", "epoch"] = "infer",
+    time_field: str = "",
+    spin: Literal["clockwise", "counter-clockwise"] = "clockwise",
+    elevation_correction_deg: float = 0.0,
+    rate: float = 10.0,
+    skip_bad_sweeps: bool = False,
+) -> RunResult: ...
 def evaluate(truth: npt.ArrayLike, estimate: npt.ArrayLike) -> dict[str, Optional[float]]: ...
-def dump_config(config: str = "", settings: Sequence[str] = ()) -> str: ...
+def dump_config(config: _Config = None, settings: _Settings = None) -> str: ...
+def write_poses(
+    path: _Path,
+    poses: npt.ArrayLike,
+    stamps_ns: Optional[npt.ArrayLike] = None,
+    format: Literal["tum", "kitti", "euroc"] = "tum",
+) -> None: ...
+@overload
+def read_poses(
+    path: _Path, format: Literal["tum"] = "tum"
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.float64]]: ...
+@overload
+def read_poses(path: _Path, format: Literal["kitti"]) -> npt.NDArray[np.float64]: ...
+def write_map(path: _Path, points: npt.ArrayLike) -> None: ...

@@ -18,17 +18,35 @@ namespace rilo::python {
 
 namespace py = pybind11;
 
-/// float32, rows together: taken as they are. Other arrays are converted (a copy) by pybind11 on the way in.
-using PointArray = py::array_t<float, py::array::c_style | py::array::forcecast>;
-using TimeArray = py::array_t<float, py::array::c_style | py::array::forcecast>;
-using RingArray = py::array_t<std::uint16_t, py::array::c_style | py::array::forcecast>;
-using PoseArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// A column of numbers: in the array's own memory where that has our type and no holes, else a converted copy.
+template <typename Value>
+struct Column {
+  py::array array;            ///< keeps the memory alive
+  std::vector<Value> copied;  ///< empty: the array is used in place
+  std::span<const Value> values;
+};
 
-/// The points of an (N, 3) array, in place. @throws ValueError for another shape.
-std::span<const Eigen::Vector3f> points_of(const PointArray& array);
+/// The points of an (N, 3) or (N, 4) array of float32 or float64; what stands in the fourth column is ignored.
+/// (N, 3) float32 in C order is used in place. @throws ValueError saying what came instead.
+Column<Eigen::Vector3f> points_of(const py::object& object);
 
-/// The poses of an (N, 4, 4) or (N, 3, 4) array. @throws ValueError for another shape.
-std::vector<SE3> poses_of(const PoseArray& array);
+/// Seconds, (N,) float32 or float64 for `points` points. @throws ValueError saying what came instead.
+Column<float> times_of(const py::object& object, std::size_t points);
+
+/// Beam indices, (N,) of any integer type, 0 … 65535. @throws ValueError saying what came instead.
+Column<std::uint16_t> rings_of(const py::object& object, std::size_t points);
+
+/// (N,) int64. @throws ValueError saying what came instead.
+std::vector<std::int64_t> stamps_of(const py::object& object, std::size_t poses);
+
+/// The poses of an (N, 4, 4) or (N, 3, 4) array. @throws ValueError saying what came instead.
+std::vector<SE3> poses_of(const py::object& object, const char* name);
+
+/// "shape (3, 100), int64", or the type of what is not an array.
+std::string description_of(const py::handle& object);
+
+/// `object` as numpy sees it, without a copy where it is an array. @throws ValueError when numpy makes none of it.
+py::array array_of(const py::object& object, const char* name);
 
 /// An (N, 4, 4) array.
 py::array_t<double> pose_array(const std::vector<SE3>& poses);

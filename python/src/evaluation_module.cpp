@@ -10,8 +10,9 @@ namespace rilo::python {
 void add_evaluation(py::module_& module) {
   module.def(
       "evaluate",
-      [](const PoseArray& truth, const PoseArray& estimate) {
-        const Evaluation e = evaluate(poses_of(truth), poses_of(estimate));
+      [](const py::object& truth, const py::object& estimate) {
+        const std::vector<SE3> true_poses = poses_of(truth, "truth");
+        const Evaluation e = evaluate(true_poses, poses_of(estimate, "estimate"));
         py::dict figures;
         figures["poses"] = e.poses;
         figures["path_m"] = e.path_m;
@@ -23,7 +24,8 @@ void add_evaluation(py::module_& module) {
         return figures;
       },
       py::arg("truth"), py::arg("estimate"),
-      "Errors of poses (N, 4, 4) of the same sensor at the same instants; figures as in metrics.json.");
+      "Errors of poses (N, 4, 4) or (N, 3, 4) of the same sensor at the same times: a dict with figures as in "
+      "metrics.json. t_rel_pct and r_rel_deg_per_100m are None for paths below 100 m.");
 }
 
 }  // namespace rilo::python

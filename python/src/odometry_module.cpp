@@ -1,14 +1,16 @@
-// Odometry, its configuration and its results.
+// Odometry and its configuration.
 #include <chrono>
 #include <optional>
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <string>
 
 #include "arrays.hpp"
 #include "modules.hpp"
+#include "notebook.hpp"
 #include "rilo/config/config_file.hpp"
+#include "rilo/io/point_times.hpp"
 #include "rilo/odometry/odometry.hpp"
+#include "settings.hpp"
 
 namespace rilo::python {
 
@@ -19,101 +21,204 @@ std::int64_t monotonic_ns() {
       .count();
 }
 
-/// YAML text, a path to a file (what ends in .yaml or .yml), or nothing: the defaults.
-OdometryConfig config_of(const std::string& config, const std::vector<std::string>& settings) {
-  OdometryConfig base;
-  if (config.ends_with(".yaml") || config.ends_with(".yml")) {
-    base = load_config(config);
-  } else if (!config.empty()) {
-    base = parse_config(config, "config");
+// The distance of sweeps whose stamps nobody gives.
+constexpr double kAssumedPeriodS = 0.1;
+constexpr std::int64_t kAssumedPeriodNs = 100'000'000;
+
+RawTimes raw_times_of(const py::object& object, std::size_t points) {
+  const py::array array = array_of(object, "timestamps");
+  const char kind = array.dtype().kind();
+  if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != points ||
+      (kind != 'f' && kind != 'i' && kind != 'u')) {
+    throw py::value_error("timestamps: got " + description_of(array) + "; expected shape (" + std::to_string(points) +
+                          ",), one number per point");
   }
-  return with_overrides(base, settings);
+  RawTimes raw;
+  raw.field = "timestamps";
+  if (kind == 'f') {
+    raw.type = array.itemsize() == 4 ? ScalarType::kFloat32 : ScalarType::kFloat64;
+    const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>(array);
+    raw.floats.assign(numbers.data(), numbers.data() + numbers.size());
+  } else {
+    raw.type = array.itemsize() <= 4 ? ScalarType::kUint32 : ScalarType::kInt64;
+    const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
+    raw.integers.assign(numbers.data(), numbers.data() + numbers.size());
+  }
+  return raw;
 }
 
-SweepResult register_sweep(Odometry& odometry, const PointArray& points, const std::optional<TimeArray>& times_s,
-                           std::int64_t stamp_ns, const std::optional<RingArray>& rings) {
-  SweepView sweep;
-  sweep.stamp_ns = stamp_ns;
-  sweep.points = points_of(points);
-  const auto check = [&](py::ssize_t size, const char* name) {
-    if (static_cast<std::size_t>(size) != sweep.points.size()) {
-      throw py::value_error(std::string(name) + ": " + std::to_string(size) + " values for " +
-                            std::to_string(sweep.points.size()) + " points");
+/// An odometry and what its calls leave unsaid.
+class PythonOdometry {
+ public:
+  PythonOdometry(const py::object& config, const py::object& settings)
+      : config_(config_of(config, settings)), odometry_(config_, monotonic_ns) {}
+
+  SweepResult register_sweep(const py::object& points, const py::object& times_s, std::optional<std::int64_t> stamp_ns,
+                             const py::object& rings) {
+    const auto taken = points_of(points);
+    std::optional<Column<float>> times;
+    std::optional<Column<std::uint16_t>> beams;
+    SweepView sweep;
+    sweep.points = taken.values;
+    if (!times_s.is_none()) sweep.times_s = times.emplace(times_of(times_s, taken.values.size())).values;
+    if (!rings.is_none()) sweep.rings = beams.emplace(rings_of(rings, taken.values.size())).values;
+    sweep.stamp_ns = stamp_ns.value_or(next_stamp_ns());
+    return registered(sweep);
+  }
+
+  SweepResult register_frame(const py::object& points, const py::object& timestamps,
+                             std::optional<std::int64_t> stamp_ns, const std::string& unit) {
+    const auto taken = points_of(points);
+    SweepView view;
+    view.points = taken.values;
+    view.stamp_ns = stamp_ns.value_or(next_stamp_ns());
+    if (timestamps.is_none()) return registered(view);
+    const auto parsed = parse_point_time_unit(unit);
+    if (!parsed) {
+      throw py::value_error("point_time_unit: got '" + unit + "'; expected infer, s, ms, us, ns or fraction");
     }
-  };
-  if (times_s) {
-    check(times_s->size(), "times_s");
-    sweep.times_s = {times_s->data(), static_cast<std::size_t>(times_s->size())};
+    if (!decoder_ || *parsed != unit_) {
+      unit_ = *parsed;
+      PointTimeHints hints;
+      hints.unit = unit_;
+      hints.assumed_period_s = kAssumedPeriodS;
+      decoder_.emplace(hints);
+    }
+    Sweep sweep;  // the decoder marks points without a time, so it has its own
+    sweep.points.assign(taken.values.begin(), taken.values.end());
+    sweep.stamp_ns = view.stamp_ns;
+    decoder_->decode(raw_times_of(timestamps, sweep.points.size()), "register_frame", sweep);
+    if (stamp_ns) sweep.stamp_ns = *stamp_ns;
+    return registered(sweep);
   }
-  if (rings) {
-    check(rings->size(), "rings");
-    sweep.rings = {rings->data(), static_cast<std::size_t>(rings->size())};
+
+  void reset() {
+    odometry_.reset();
+    last_stamp_ns_.reset();
+    decoder_.reset();
   }
-  const py::gil_scoped_release others_go_on;
-  return odometry.register_sweep(sweep);
+
+  const Odometry& odometry() const { return odometry_; }
+  const OdometryConfig& config() const { return config_; }
+
+ private:
+  std::int64_t next_stamp_ns() const { return last_stamp_ns_ ? *last_stamp_ns_ + kAssumedPeriodNs : 0; }
+
+  SweepResult registered(const SweepView& sweep) {
+    last_stamp_ns_ = sweep.stamp_ns;
+    const py::gil_scoped_release others_go_on;
+    return odometry_.register_sweep(sweep);
+  }
+
+  OdometryConfig config_;
+  Odometry odometry_;
+  std::optional<std::int64_t> last_stamp_ns_;
+  PointTimeUnit unit_ = PointTimeUnit::kInfer;
+  std::optional<PointTimeDecoder> decoder_;
+};
+
+py::array_t<double> trajectory_of(const PythonOdometry& self) {
+  std::vector<SE3> poses;
+  for (const StampedPose& pose : self.odometry().trajectory()) poses.push_back(pose.T_odom_lidar);
+  return pose_array(poses);
 }
+
+py::array_t<std::int64_t> trajectory_stamps(const PythonOdometry& self) {
+  std::vector<std::int64_t> stamps;
+  for (const StampedPose& pose : self.odometry().trajectory()) stamps.push_back(pose.stamp_ns);
+  const auto count = static_cast<py::ssize_t>(stamps.size());
+  return hand_over<std::int64_t>(std::move(stamps), {count});
+}
+
+SE3 last_pose_of(const PythonOdometry& self) {
+  const Trajectory& poses = self.odometry().trajectory();
+  return poses.empty() ? SE3::Identity() : poses.back().T_odom_lidar;
+}
+
+std::string odometry_repr(const PythonOdometry& self) {
+  return text_of("<rilo.Odometry after %zu sweeps, position ", self.odometry().trajectory().size()) +
+         position_text(last_pose_of(self).translation()) + ">";
+}
+
+std::string odometry_html(const PythonOdometry& self) {
+  const Trajectory& poses = self.odometry().trajectory();
+  double path_m = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    path_m += (poses[i].T_odom_lidar.translation() - poses[i - 1].T_odom_lidar.translation()).norm();
+  }
+  return html_table("rilo.Odometry", {{"sweeps", std::to_string(poses.size())},
+                                      {"path", text_of("%.1f m", path_m)},
+                                      {"position", position_text(last_pose_of(self).translation())}});
+}
+
+constexpr const char* kOdometryDoc = R"(LiDAR odometry: one call of register() or register_frame() per sweep.
+
+config:   the configuration as a dict, YAML text, or the path of a .yaml file; default: the built-in values.
+settings: single keys on top of it, as a dict ({"map": {"voxel_m": 0.3}} or {"map.voxel_m": 0.3}) or as a list of
+          "key=value". rilo.dump_config() lists all keys with unit, range and meaning.
+
+Raises ConfigError for an unknown key or a value out of range. Not thread-safe: one thread at a time.)";
+
+constexpr const char* kRegisterDoc = R"(Registers one sweep and returns its SweepResult.
+
+points:   (N, 3) or (N, 4), float32 or float64, m, sensor frame (x forward, y left, z up); a fourth column (intensity)
+          is ignored. (N, 3) float32 in C order is used in place, anything else is copied. NaN points are dropped.
+times_s:  (N,) float32 or float64, s from stamp_ns, for motion compensation. None: none, or compensated already.
+stamp_ns: time that times_s count from, ns. None: 0.1 s after the sweep before.
+rings:    (N,) integers, beam index; needed for the calibration of single beams only.
+
+Raises ValueError for arrays of another shape or type. Bad data is not an error: see SweepResult.status.)";
+
+constexpr const char* kRegisterFrameDoc = R"(Registers one sweep whose timestamps are as the driver gives them.
+
+points:          as for register().
+timestamps:      (N,) numbers, one per point, from the start of the sweep or of a clock (then the earliest is the stamp
+                 of the sweep). None: no motion compensation.
+stamp_ns:        stamp of the sweep, ns. None: from a clock's timestamps, else 0.1 s after the sweep before.
+point_time_unit: infer (from the span of the first sweep), s, ms, us, ns, or fraction (0 to 1 of a sweep of 0.1 s).
+
+Returns a SweepResult. Raises ValueError for arrays of another shape or type, IoError for timestamps whose unit cannot
+be told.)";
 
 }  // namespace
 
 void add_odometry(py::module_& module) {
-  py::class_<SweepResult>(module, "SweepResult", "What the odometry says of one sweep.")
-      .def_readonly("stamp_ns", &SweepResult::stamp_ns, "Instant of the pose.")
+  py::class_<PythonOdometry>(module, "Odometry", kOdometryDoc)
+      .def(py::init<const py::object&, const py::object&>(), py::arg("config") = py::none(),
+           py::arg("settings") = py::none())
+      .def("register", &PythonOdometry::register_sweep, py::arg("points"), py::arg("times_s") = py::none(),
+           py::arg("stamp_ns") = py::none(), py::arg("rings") = py::none(), kRegisterDoc)
+      .def("register_frame", &PythonOdometry::register_frame, py::arg("points"), py::arg("timestamps") = py::none(),
+           py::arg("stamp_ns") = py::none(), py::arg("point_time_unit") = "infer", kRegisterFrameDoc)
+      .def_property_readonly("trajectory", trajectory_of, "Poses T_odom_lidar so far, (N, 4, 4) float64.")
+      .def_property_readonly("stamps_ns", trajectory_stamps, "Times that the poses refer to, (N,) int64, ns.")
       .def_property_readonly(
-          "pose", [](const SweepResult& r) { return pose_array(r.T_odom_lidar); }, "T_odom_lidar, (4, 4).")
-      .def_readonly("twist", &SweepResult::twist, "Velocity during the sweep, sensor frame [rad/s; m/s].")
-      .def_readonly("covariance", &SweepResult::covariance,
-                    "Of the pose given the one before, (6, 6), sensor frame [rad; m].")
-      .def_property_readonly(
-          "status", [](const SweepResult& r) { return std::string(to_string(r.status)); },
-          "initialising, ok, degenerate, few_correspondences, lost, recovered or empty.")
-      .def_property_readonly("inlier_ratio", [](const SweepResult& r) { return r.stats.inlier_ratio; })
-      .def_property_readonly("sigma_th_m", [](const SweepResult& r) { return r.stats.sigma_th_m; })
-      .def_property_readonly("iterations", [](const SweepResult& r) { return r.stats.iterations; })
-      .def_property_readonly("elevation_offset_rad", [](const SweepResult& r) { return r.stats.elevation_offset_rad; })
-      .def_property_readonly("relative_eigenvalues", [](const SweepResult& r) { return r.stats.relative_eigenvalues; })
-      .def_property_readonly("total_ms", [](const SweepResult& r) { return r.stats.times.total_ms; })
-      .def("__repr__", [](const SweepResult& r) {
-        return "<rilo.SweepResult " + std::string(to_string(r.status)) + " at " + std::to_string(r.stamp_ns) + " ns>";
-      });
-
-  py::class_<Odometry>(module, "Odometry", "One call of register() per sweep. One thread uses it.")
-      .def(py::init([](const std::string& config, const std::vector<std::string>& settings) {
-             return Odometry(config_of(config, settings), monotonic_ns);
-           }),
-           py::arg("config") = "", py::arg("settings") = std::vector<std::string>{},
-           "config: YAML text, or the path of a .yaml file; settings: \"key=value\" on top of it.")
-      .def("register", &register_sweep, py::arg("points"), py::arg("times_s") = py::none(), py::arg("stamp_ns") = 0,
-           py::arg("rings") = py::none(),
-           "Registers points (N, 3) with times (N,) in s from stamp_ns. float32 arrays are used in place.")
-      .def_property_readonly(
-          "trajectory",
-          [](const Odometry& odometry) {
-            std::vector<SE3> poses;
-            for (const StampedPose& pose : odometry.trajectory()) poses.push_back(pose.T_odom_lidar);
-            return pose_array(poses);
-          },
-          "Poses so far, (N, 4, 4).")
-      .def_property_readonly(
-          "stamps_ns",
-          [](const Odometry& odometry) {
-            std::vector<std::int64_t> stamps;
-            for (const StampedPose& pose : odometry.trajectory()) stamps.push_back(pose.stamp_ns);
-            const auto count = static_cast<py::ssize_t>(stamps.size());
-            return hand_over<std::int64_t>(std::move(stamps), {count});
-          },
-          "Their instants, (N,).")
+          "last_pose", [](const PythonOdometry& self) { return pose_array(last_pose_of(self)); },
+          "Pose of the last sweep, (4, 4) float64; the identity before the first.")
       .def(
-          "local_map", [](const Odometry& odometry) { return point_array(odometry.local_map()); },
-          "Points of the local map, odometry frame, (N, 3).")
-      .def("reset", &Odometry::reset, "Forgets everything.");
+          "local_map", [](const PythonOdometry& self) { return point_array(self.odometry().local_map()); },
+          "Points of the local map, odometry frame, (M, 3) float32, m.")
+      .def(
+          "last_map_points",
+          [](const PythonOdometry& self) {
+            return point_array(std::vector<Eigen::Vector3f>(self.odometry().last_map_points()));
+          },
+          "Points of the last sweep that went into the map, motion-compensated, sensor frame at the pose's time, (M, "
+          "3) "
+          "float32, m.")
+      .def(
+          "config", [](const PythonOdometry& self) { return dump_config(self.config()); },
+          "The configuration in use, YAML with all keys.")
+      .def("reset", &PythonOdometry::reset, "Clears map and trajectory; the next sweep starts at the identity.")
+      .def("__len__", [](const PythonOdometry& self) { return self.odometry().trajectory().size(); })
+      .def("__repr__", odometry_repr)
+      .def("_repr_html_", odometry_html);
 
   module.def(
       "dump_config",
-      [](const std::string& config, const std::vector<std::string>& settings) {
-        return dump_config(config_of(config, settings));
-      },
-      py::arg("config") = "", py::arg("settings") = std::vector<std::string>{},
-      "All keys as YAML, with their meaning.");
+      [](const py::object& config, const py::object& settings) { return dump_config(config_of(config, settings)); },
+      py::arg("config") = py::none(), py::arg("settings") = py::none(),
+      "All keys as YAML, with unit, range and meaning; arguments as for Odometry.");
 }
 
 }  // namespace rilo::python

@@ -8,13 +8,25 @@
 
 namespace rilo::python {
 
+namespace {
+
+constexpr const char* kSimulatorDoc = R"(A drive through a small town; the same arguments give the same bytes.
+
+sensor:   hdl64, vlp16 or os1-64.
+sweeps:   number of sweeps, 10 per second; 0: one lap and a little more.
+seed:     town, traffic and noise.
+start_s:  begin this far into the drive, s; 0: standing.
+deskewed: points compensated to the middle of the sweep, without times; else each at its own time.)";
+
+}  // namespace
+
 void add_simulation(py::module_& module) {
-  py::class_<DriveSimulator>(module, "Simulator", "A drive through a small town; the same arguments, the same bytes.")
+  py::class_<DriveSimulator>(module, "Simulator", kSimulatorDoc)
       .def(py::init(
                [](const std::string& sensor, std::size_t sweeps, std::uint64_t seed, double start_s, bool deskewed) {
                  DriveConfig config;
                  const auto kind = parse_sensor_kind(sensor);
-                 if (!kind) throw py::value_error("sensor: '" + sensor + "'; expected hdl64, vlp16 or os1-64");
+                 if (!kind) throw py::value_error("sensor: got '" + sensor + "'; expected hdl64, vlp16 or os1-64");
                  config.sensor = *kind;
                  config.sweeps = sweeps;
                  config.seed = seed;
@@ -39,7 +51,12 @@ void add_simulation(py::module_& module) {
             return py::make_tuple(point_array(std::move(s.sweep.points)), times, s.sweep.stamp_ns,
                                   pose_array(s.T_odom_lidar_mid));
           },
-          py::arg("index"), "(points, times_s or None, stamp_ns, true pose at the middle of the sweep).");
+          py::arg("index"),
+          "Sweep number `index` as (points (N, 3) float32, times_s (N,) float32 or None, stamp_ns, true pose (4, 4) at "
+          "the middle of the sweep). Raises IndexError past the last.")
+      .def("__repr__", [](const DriveSimulator& simulator) {
+        return "<rilo.Simulator of " + std::to_string(simulator.size()) + " sweeps>";
+      });
 }
 
 }  // namespace rilo::python

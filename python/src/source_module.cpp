@@ -1,20 +1,19 @@
 // Sweeps from files and recordings.
+#include <filesystem>
 #include <memory>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 #include <string>
 
 #include "arrays.hpp"
 #include "modules.hpp"
+#include "notebook.hpp"
 #include "rilo/io/scan_source.hpp"
+#include "sources.hpp"
 
 namespace rilo::python {
 
 namespace {
-
-/// A sweep whose columns numpy looks into; they live as long as one of them is used.
-struct SharedSweep {
-  std::shared_ptr<Sweep> sweep;
-};
 
 template <typename Scalar, typename Value>
 py::object column(const SharedSweep& shared, const std::vector<Value>& values, std::vector<py::ssize_t> shape) {
@@ -29,24 +28,72 @@ py::object column(const SharedSweep& shared, const std::vector<Scalar>& values) 
   return column<Scalar>(shared, values, {static_cast<py::ssize_t>(values.size())});
 }
 
-SourceOptions options_of(const std::string& topic, const std::string& bin_fields, const std::string& point_times,
-                         double elevation_correction_deg, const std::string& sensor_file) {
+/// What a word stands for. @throws ValueError with the words that there are.
+template <typename Parse>
+auto choice(const char* name, const std::string& text, const Parse& parse, const char* expected) {
+  const auto value = parse(text);
+  if (!value) throw py::value_error(std::string(name) + ": got '" + text + "'; expected " + expected);
+  return *value;
+}
+
+/// As rilo.open() has them; the names are those of the command's options.
+SourceOptions options_of(const std::string& topic, const std::filesystem::path& sensor_file,
+                         const std::string& bin_fields, const std::string& point_times,
+                         const std::string& point_time_unit, const std::string& point_time_reference,
+                         const std::string& time_field, const std::string& spin, double elevation_correction_deg,
+                         double rate, bool skip_bad_sweeps) {
   SourceOptions options;
   options.topic = topic;
-  options.sensor_file = sensor_file;
+  options.sensor_file = sensor_file.string();
   if (!bin_fields.empty()) options.bin_fields = bin_fields;
+  options.point_times = choice("point_times", point_times, parse_point_times, "auto, none or azimuth");
+  options.point_time_unit =
+      choice("point_time_unit", point_time_unit, parse_point_time_unit, "infer, s, ms, us, ns or fraction");
+  options.point_time_reference =
+      choice("point_time_reference", point_time_reference, parse_point_time_reference, "infer, stamp or epoch");
+  options.time_field = time_field;
+  options.spin_direction = choice("spin", spin, parse_spin_direction, "clockwise or counter-clockwise");
   options.elevation_correction_deg = elevation_correction_deg;
-  const auto times = parse_point_times(point_times);
-  if (!times) throw py::value_error("point_times: '" + point_times + "'; expected auto, none or azimuth");
-  options.point_times = *times;
+  options.assumed_rate_hz = rate;
+  options.on_bad_sweep = skip_bad_sweeps ? OnBadSweep::kSkip : OnBadSweep::kFail;
   return options;
+}
+
+HtmlRows rows_of(const ScanSource& source) {
+  const SourceInfo info = source.info();
+  const auto size = source.size();
+  HtmlRows rows{
+      {"path", info.path.string()},
+      {"kind", info.kind + ", " + info.format},
+      {"sweeps", size ? std::to_string(*size) : "known when they were read"},
+      {"period", text_of("%.4g s", info.period_s) + (info.stamps_assumed ? ", assumed: no stamps in the data" : "")},
+      {"point times", info.point_times}};
+  if (!info.topic.empty()) rows.emplace_back("topic", info.topic);
+  for (const std::string& warning : info.warnings) rows.emplace_back("warning", warning);
+  return rows;
+}
+
+std::string source_repr(const ScanSource& source) {
+  const SourceInfo info = source.info();
+  const auto size = source.size();
+  return "<rilo.ScanSource " + info.path.string() + ": " + info.kind + ", " + info.format + ", " +
+         (size ? std::to_string(*size) + " sweeps" : "number of sweeps not known yet") + ">";
+}
+
+std::string sweep_repr(const SharedSweep& s) {
+  const auto has = [](bool given, const char* name) { return given ? std::string(", ") + name : std::string(); };
+  return "<rilo.Sweep of " + std::to_string(s.sweep->points.size()) + " points at " +
+         text_of("%.3f", static_cast<double>(s.sweep->stamp_ns) * 1e-9) + " s" +
+         has(!s.sweep->times_s.empty(), "times") + has(!s.sweep->intensities.empty(), "intensities") +
+         has(!s.sweep->rings.empty(), "rings") + ">";
 }
 
 }  // namespace
 
 void add_sources(py::module_& module) {
-  py::class_<SharedSweep>(module, "Sweep", "Points of one sweep, sensor frame.")
-      .def_property_readonly("stamp_ns", [](const SharedSweep& s) { return s.sweep->stamp_ns; })
+  py::class_<SharedSweep>(module, "Sweep", "Points of one sweep, sensor frame. The arrays look into its memory.")
+      .def_property_readonly(
+          "stamp_ns", [](const SharedSweep& s) { return s.sweep->stamp_ns; }, "Time that times_s count from, ns.")
       .def_property_readonly(
           "points",
           [](const SharedSweep& s) {
@@ -56,15 +103,20 @@ void add_sources(py::module_& module) {
           "(N, 3) float32, m.")
       .def_property_readonly(
           "times_s", [](const SharedSweep& s) { return column(s, s.sweep->times_s); },
-          "(N,) float32, s from the stamp; None without.")
+          "(N,) float32, s from the stamp; None: no times, or already motion-compensated.")
       .def_property_readonly(
           "intensities", [](const SharedSweep& s) { return column(s, s.sweep->intensities); },
-          "(N,) float32; None without.")
+          "(N,) float32, sensor units; None without.")
       .def_property_readonly(
-          "rings", [](const SharedSweep& s) { return column(s, s.sweep->rings); }, "(N,) uint16; None without.")
-      .def("__len__", [](const SharedSweep& s) { return s.sweep->points.size(); });
+          "rings", [](const SharedSweep& s) { return column(s, s.sweep->rings); },
+          "(N,) uint16, beam index; None without.")
+      .def("__len__", [](const SharedSweep& s) { return s.sweep->points.size(); })
+      .def("__repr__", [](const SharedSweep& s) { return sweep_repr(s); });
 
-  py::class_<ScanSource>(module, "ScanSource", "Iterates over the sweeps of a folder, file or recording.")
+  py::class_<ScanSource>(
+      module, "ScanSource",
+      "Iterates over the sweeps of a folder, file or recording, once. len() gives their number where it is "
+      "known without reading them (else TypeError, so that list() and tqdm do without).")
       .def(
           "__iter__", [](ScanSource& source) -> ScanSource& { return source; }, py::return_value_policy::reference)
       .def("__next__",
@@ -82,22 +134,36 @@ void add_sources(py::module_& module) {
              if (const auto size = source.size()) return *size;
              throw py::type_error("the number of sweeps is not known before they are read");
            })
-      .def("skip", &ScanSource::skip, py::arg("count"), "Leaves out sweeps; returns how many there were.")
-      .def_property_readonly("kind", [](const ScanSource& source) { return source.info().kind; })
-      .def_property_readonly("format", [](const ScanSource& source) { return source.info().format; })
-      .def_property_readonly("period_s", [](const ScanSource& source) { return source.info().period_s; })
-      .def_property_readonly("warnings", [](const ScanSource& source) { return source.info().warnings; });
+      .def("skip", &ScanSource::skip, py::arg("count"),
+           "Skips up to `count` sweeps without reading them; returns how many there were.")
+      .def_property_readonly(
+          "kind", [](const ScanSource& source) { return source.info().kind; },
+          "kitti, folder, file, recording, packets, ...")
+      .def_property_readonly(
+          "format", [](const ScanSource& source) { return source.info().format; },
+          "bin, pcd, ply, mcap, ROS 1 bag, ...")
+      .def_property_readonly(
+          "period_s", [](const ScanSource& source) { return source.info().period_s; },
+          "Median distance of the stamps, s; 1 / rate without stamps.")
+      .def_property_readonly(
+          "point_times", [](const ScanSource& source) { return source.info().point_times; },
+          "Where the per-point times come from, with unit and reference; known after the first sweep.")
+      .def_property_readonly(
+          "topic", [](const ScanSource& source) { return source.info().topic; }, "Topic of a recording.")
+      .def_property_readonly(
+          "frame_id", [](const ScanSource& source) { return source.info().frame_id; }, "Frame of its messages.")
+      .def_property_readonly(
+          "warnings", [](const ScanSource& source) { return source.info().warnings; },
+          "Sentences for the user about what was found in the data so far.")
+      .def("__repr__", [](const ScanSource& source) { return source_repr(source); })
+      .def("_repr_html_", [](const ScanSource& source) { return html_table("rilo.ScanSource", rows_of(source)); });
 
-  module.def(
-      "open",
-      [](const std::string& path, const std::string& topic, const std::string& bin_fields,
-         const std::string& point_times, double elevation_correction_deg, const std::string& sensor_file) {
-        return open_scan_source(path,
-                                options_of(topic, bin_fields, point_times, elevation_correction_deg, sensor_file));
-      },
-      py::arg("path"), py::arg("topic") = "", py::arg("bin_fields") = "", py::arg("point_times") = "auto",
-      py::arg("elevation_correction_deg") = 0.0, py::arg("sensor_file") = "",
-      "Opens data of any format that `rilo run` reads; these options mean the same there.");
+  // Python's open() and run() take these as keywords: rilo/_sources.py.
+  py::class_<SourceOptions>(module, "_SourceOptions")
+      .def(py::init(&options_of), py::kw_only(), py::arg("topic"), py::arg("sensor_file"), py::arg("bin_fields"),
+           py::arg("point_times"), py::arg("point_time_unit"), py::arg("point_time_reference"), py::arg("time_field"),
+           py::arg("spin"), py::arg("elevation_correction_deg"), py::arg("rate"), py::arg("skip_bad_sweeps"));
+  module.def("_open", &open_scan_source, py::arg("path"), py::arg("options"), py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace rilo::python

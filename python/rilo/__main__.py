@@ -1,0 +1,3 @@
+from rilo._command import main
+
+main()

@@ -1,0 +1,128 @@
+"""Opening data and running them whole: the keywords of both are the same."""
+
+import sys
+import time
+
+from ._rilo import _open, _run, _SourceOptions
+
+_DEFAULTS = {
+    "topic": "",
+    "sensor_file": "",
+    "bin_fields": "auto",
+    "point_times": "auto",
+    "point_time_unit": "infer",
+    "point_time_reference": "infer",
+    "time_field": "",
+    "spin": "clockwise",
+    "elevation_correction_deg": 0.0,
+    "rate": 10.0,
+    "skip_bad_sweeps": False,
+}
+
+
+def _options(given):
+    unknown = set(given) - set(_DEFAULTS)
+    if unknown:
+        raise TypeError(f"unknown option {sorted(unknown)[0]!r}; known: {', '.join(_DEFAULTS)}")
+    return _SourceOptions(**{**_DEFAULTS, **given})
+
+
+def open(path, **options):
+    """Opens data of any format that `rilo run` reads and returns a ScanSource, which iterates over its sweeps.
+
+    path: folder (KITTI, KITTI raw, MulRan, .bin, .pcd, .ply), file, ROS 1 bag, rosbag2, MCAP or pcap.
+
+    Options, named as those of the command:
+    topic:                    PointCloud2 topic of a recording that has several.
+    sensor_file:              what a pcap needs: an Ouster's metadata (JSON; by default the one beside the recording) or
+                              an HDL-64E's calibration (YAML of velodyne_pointcloud).
+    bin_fields:               columns of a .bin record, float32 each: "x,y,z,intensity,time,ring"; _ is ignored.
+    point_times:              auto: from the data when it has them; azimuth: from the angle of a spinning sensor whose
+                              sweep is stamped at its forward direction (KITTI raw); none: compensated already.
+    point_time_unit:          infer, s, ms, us, ns or fraction.
+    point_time_reference:     infer, stamp or epoch: what the time field counts from.
+    time_field:               name of the PCD or PLY field with the point times.
+    spin:                     clockwise or counter-clockwise, seen from above, for point_times="azimuth".
+    elevation_correction_deg: added to every point's elevation angle; KITTI's HDL-64E needs 0.205.
+    rate:                     sweeps per second of data without stamps.
+    skip_bad_sweeps:          skip sweeps that cannot be read instead of raising.
+
+    Raises IoError when the data cannot be read, ValueError for an option that makes no sense.
+    """
+    return _open(path, _options(options))
+
+
+class _Progress:
+    """A line on stderr that overwrites itself, five times per second at most."""
+
+    def __init__(self):
+        self.start = time.monotonic()
+        self.shown = 0.0
+
+    def __call__(self, done, total):
+        now = time.monotonic()
+        if now - self.shown < 0.2 and done != total:
+            return
+        self.shown = now
+        of = "" if total is None else f"/{total}"
+        rate = done / max(now - self.start, 1e-9)
+        print(f"\r{done}{of} sweeps, {rate:.0f} per second ", end="", file=sys.stderr, flush=True)
+
+    def restart(self, offset_deg):
+        self.start = time.monotonic()
+        print(f"\nelevation offset {offset_deg:+.3f} deg found: restarting with it", file=sys.stderr, flush=True)
+
+
+def run(
+    source,
+    config=None,
+    settings=None,
+    *,
+    start=0,
+    count=0,
+    one_pass=False,
+    map_voxel_m=None,
+    progress=False,
+    on_sweep=None,
+    on_restart=None,
+    **options,
+):
+    """Runs the odometry over a recording or folder, as `rilo run` does and with the same poses; returns a RunResult.
+
+    source:           path of the data, as for open(); further keywords are the options of open().
+    config, settings: as for Odometry.
+    start, count:     sweeps to skip, and to run at most (0: all).
+    one_pass:         single pass, as in live operation. Otherwise the run restarts, once, with the elevation offset of
+                      the sensor when that has become certain.
+    map_voxel_m:      also collects the map of the whole run, one point per voxel of this edge, m.
+    progress:         shows a line on stderr.
+    on_sweep:         called after every sweep with (index, SweepResult, Sweep).
+    on_restart:       called before the second pass with (sweeps of the first, elevation offset in degrees).
+
+    Ctrl-C ends the run after the sweep in work and raises KeyboardInterrupt; an exception of a callable ends it, too.
+    Raises IoError, ConfigError and ValueError as open() and Odometry do.
+    """
+    line = _Progress() if progress else None
+
+    def restarted(after_sweeps, offset_deg):
+        if line:
+            line.restart(offset_deg)
+        if on_restart:
+            on_restart(after_sweeps, offset_deg)
+
+    result = _run(
+        source,
+        _options(options),
+        config=config,
+        settings=settings,
+        start=start,
+        count=count,
+        one_pass=one_pass,
+        map_voxel_m=map_voxel_m,
+        on_sweep=on_sweep,
+        on_restart=restarted,
+        on_progress=line,
+    )
+    if line:
+        print(file=sys.stderr)
+    return result

@@ -1,0 +1,30 @@
+// What a notebook shows of our objects.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace rilo::python {
+
+/// One printf of a few numbers.
+template <typename... Values>
+std::string text_of(const char* format, Values... values) {
+  std::string text(static_cast<std::size_t>(std::snprintf(nullptr, 0, format, values...)) + 1, '\0');
+  text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), format, values...)));
+  return text;
+}
+
+inline std::string position_text(const Eigen::Vector3d& p) {
+  return text_of("(%.3f, %.3f, %.3f) m", p.x(), p.y(), p.z());
+}
+
+using HtmlRows = std::vector<std::pair<std::string, std::string>>;
+
+/// A table of two columns, its texts escaped.
+std::string html_table(const std::string& title, const HtmlRows& rows);
+
+}  // namespace rilo::python

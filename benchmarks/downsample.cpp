@@ -4,8 +4,8 @@
 #include <benchmark/benchmark.h>
 
 #include "bench_scene.hpp"
-#include "rilo/cloud/voxel_mean.hpp"
-#include "rilo/cloud/voxel_sampler.hpp"
+#include "cloud/voxel_mean.hpp"
+#include "cloud/voxel_sampler.hpp"
 
 namespace rilo::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench_scene.hpp"
-#include "rilo/cloud/point_grid.hpp"
+#include "cloud/point_grid.hpp"
 
 namespace rilo::bench {
 namespace {

@@ -10,8 +10,9 @@
 
 #include "measured_row.hpp"
 #include "rilo/odometry/odometry.hpp"
-#include "rilo/session/steady_clock.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
+#include "session/steady_clock.hpp"
+#include "simulation/drive_path.hpp"
 
 namespace rilo::bench {
 namespace {

@@ -14,8 +14,6 @@ set(RILO_PACKAGE_TABLE
   "CLI11::CLI11=CLI11"
   "Threads::Threads=Threads"
   "ZLIB::ZLIB=ZLIB"
-  "PNG::PNG=PNG"
-  "Boost::headers=Boost 1.74"
   "SQLite::SQLite3=SQLite3"
   "ZSTD::zstd=ZSTD"
   "LZ4::lz4=LZ4"
@@ -69,8 +67,9 @@ foreach(component IN LISTS RILO_COMPONENTS)
   rilo_install_library(${component} rilo_${component})
 endforeach()
 
-# Headers: the core's folders, and those of the components that are built.
-foreach(folder geometry cloud map registration odometry ${RILO_COMPONENTS})
+# Headers: the core's folders, and those of the components that are built. All else lies in src/.
+install(FILES ${PROJECT_SOURCE_DIR}/include/rilo/rilo.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rilo COMPONENT dev)
+foreach(folder geometry cloud map registration calibration odometry ${RILO_COMPONENTS})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/rilo/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rilo
     COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
 endforeach()

@@ -49,9 +49,6 @@ execute_process(COMMAND ${PROJECT_SOURCE_DIR}/scripts/setup.sh --minimal --print
   OUTPUT_VARIABLE packages ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
 string(REPLACE "\n" ";" packages "${packages}")
 list(FILTER packages INCLUDE REGEX "-dev$")
-if(RILO_BUILD_VIEWER)
-  list(APPEND packages libboost-dev)
-endif()
 find_package(RosbagStorage QUIET)  # that of src/io is not seen here
 if(NOT RosbagStorage_FOUND)
   list(REMOVE_ITEM packages librosbag-storage-dev libnav-msgs-dev libtf2-msgs-dev)

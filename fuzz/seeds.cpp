@@ -7,7 +7,7 @@
 #include "harness.hpp"
 #include "io/packets/packet_bytes.hpp"
 #include "io/ros/ros_bytes.hpp"
-#include "rilo/io/sweep_writer.hpp"
+#include "io/sweep_writer.hpp"
 
 namespace rilo::fuzz {
 namespace {

@@ -26,7 +26,7 @@ phases=(test lint docs sanitize threads fuzz coverage instructions package wheel
 long='Elevation.(AnErrorIsFound|ASensorWithoutError)|BeamCalibration.AWorseUnit|Covariance|SameAsCommand'
 # What has threads of its own, and what runs in oneTBB's; and the programs with these tests.
 threaded='Pipeline|Preprocess|LocalMap|CoarseRegistration|AdaptiveIcp|PrefetchSource|Live(Source|Queue)|View(Server|History)'
-threaded_programs='core_floor_test core_test core_registration_test io_test view_test'
+threaded_programs='cloud_test map_test registration_test calibration_test pipeline_test io_test view_test'
 
 run_phase() {
   case "$1" in

@@ -8,6 +8,6 @@ build_preset coverage
 find build/coverage -name '*.gcda' -delete  # figures of this run alone
 ctest --preset coverage --parallel "$JOBS" "$@"
 gcovr --root . --object-directory build/coverage --exclude-unreachable-branches \
-  --filter '(src|include/rilo)/(geometry|cloud|map|registration|odometry)/' \
+  --filter '(src|include/rilo)/(geometry|cloud|map|registration|calibration|odometry)/' \
   --html-details build/coverage/coverage.html --print-summary --txt --fail-under-line "${RILO_COVERAGE_MIN:-90}" \
   --exclude-directories ".*/CMakeFiles/[0-9.]*/CompilerIdCXX" build/coverage

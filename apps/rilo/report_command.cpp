@@ -12,9 +12,9 @@
 #include "checks.hpp"
 #include "command.hpp"
 #include "console/text.hpp"
-#include "rilo/io/atomic_file.hpp"
+#include "io/atomic_file.hpp"
+#include "report/html_report.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/report/html_report.hpp"
 
 namespace rilo::cli {
 

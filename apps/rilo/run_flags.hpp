@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "results/run_request.hpp"
-#include "rilo/view/viewer.hpp"
+#include "view/viewer.hpp"
 
 namespace rilo::cli {
 

@@ -17,7 +17,7 @@
 #include "console/text.hpp"
 #include "results/run_outputs.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
-#include "rilo/simulation/drive_writer.hpp"
+#include "simulation/drive_writer.hpp"
 
 namespace rilo::cli {
 

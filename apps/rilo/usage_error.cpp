@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "rilo/config/nearest_word.hpp"
+#include "config/nearest_word.hpp"
 
 namespace rilo::cli {
 

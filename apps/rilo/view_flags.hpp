@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli11_app.hpp"
-#include "rilo/view/viewer.hpp"
+#include "view/viewer.hpp"
 
 namespace rilo::cli {
 

@@ -1,7 +1,7 @@
 #include <exception>
 
 #include "modules.hpp"
-#include "rilo/config/config_error.hpp"
+#include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace py = pybind11;

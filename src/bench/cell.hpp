@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "config/bench_plan.hpp"
 #include "console/failure.hpp"
 #include "results/metrics.hpp"
 #include "results/run_request.hpp"
-#include "rilo/config/bench_plan.hpp"
 #include "rilo/evaluation/kitti_error.hpp"
 
 namespace rilo {

@@ -4,9 +4,9 @@
 #include <system_error>
 
 #include "console/text.hpp"
+#include "io/atomic_file.hpp"
 #include "results/metrics_json.hpp"
 #include "results/run_outputs.hpp"
-#include "rilo/io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {

@@ -5,7 +5,7 @@
 #include "bench/paper.hpp"
 #include "bench/repeats.hpp"
 #include "console/text.hpp"
-#include "rilo/io/atomic_file.hpp"
+#include "io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {

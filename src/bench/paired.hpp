@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/tables.hpp"
-#include "rilo/evaluation/paired_comparison.hpp"
+#include "evaluation/paired_comparison.hpp"
 
 namespace rilo {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "bench/figures.hpp"
-#include "rilo/evaluation/percentile.hpp"
+#include "evaluation/percentile.hpp"
 
 namespace rilo {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "rilo/report/experiment_report.hpp"
+#include "report/experiment_report.hpp"
 
 namespace rilo {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "rilo/config/odometry_keys.hpp"
+#include "config/config_keys.hpp"
 
 namespace rilo {
 

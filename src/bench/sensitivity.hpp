@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "rilo/report/experiment_report.hpp"
+#include "report/experiment_report.hpp"
 
 namespace rilo {
 

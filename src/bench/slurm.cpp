@@ -13,8 +13,8 @@
 #include "bench/slurm_commands.hpp"
 #include "console/interrupt.hpp"
 #include "console/text.hpp"
+#include "io/atomic_file.hpp"
 #include "results/run_outputs.hpp"
-#include "rilo/io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {

@@ -8,7 +8,7 @@
 
 #include "bench/cell_file.hpp"
 #include "console/text.hpp"
-#include "rilo/io/atomic_file.hpp"
+#include "io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {

@@ -1,4 +1,4 @@
-#include "rilo/cloud/beam_index.hpp"
+#include "cloud/beam_index.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@ namespace rilo {
 namespace {
 
 constexpr float kMiddle = 0.5F * static_cast<float>(kBeams);  // index of the horizon
-constexpr float kTangentStep = 0.0026F;  // 0.15° at the horizon: no sensor's beams lie much closer
-constexpr std::size_t kFewestTurns = 4;
-constexpr double kLargestShare = 0.25;  // of the variance of the tangents, within turns that are beams
-// Motion compensation blurs the azimuth at which the turns begin: the seam is put 4° before the first point.
+constexpr float kTangentStep = 0.0026F;        // 0.15° at the horizon: no sensor's beams lie much closer
+constexpr std::size_t kFewestRevolutions = 4;  // fewer are no evidence of an order beam by beam
+constexpr double kLargestShare = 0.25;         // of the variance of the tangents, within revolutions that are beams
+// Motion compensation blurs the azimuth at which the revolutions begin: the seam is put 4° before the first point.
 constexpr float kSeamCosine = 0.9976F;
 constexpr float kSeamSine = 0.0698F;
 constexpr int kQuadrants = 4;
@@ -50,10 +50,10 @@ float BeamIndex::find_tangents(std::span<const Eigen::Vector3f> points) {
   return forward >= 0 ? 1.0F : -1.0F;
 }
 
-bool BeamIndex::find_turns(std::span<const Eigen::Vector3f> points, float direction) {
+bool BeamIndex::find_revolutions(std::span<const Eigen::Vector3f> points, float direction) {
   // Quadrants gone through since the first point, counted with their sign: a few points that come back over a border
   // do not matter.
-  turns_.clear();
+  revolutions_.clear();
   Eigen::Vector2f seam = Eigen::Vector2f::Zero();
   int at = 0;
   int travelled = 0;
@@ -62,34 +62,34 @@ bool BeamIndex::find_turns(std::span<const Eigen::Vector3f> points, float direct
       continue;
     }
     const Eigen::Vector2f p(points[i].x(), direction * points[i].y());
-    if (turns_.empty()) {
+    if (revolutions_.empty()) {
       seam = {kSeamCosine * p.x() + kSeamSine * p.y(), kSeamCosine * p.y() - kSeamSine * p.x()};
-      turns_.push_back({i});
+      revolutions_.push_back({i});
     }
     const int now = quadrant(seam.dot(p), seam.x() * p.y() - seam.y() * p.x());
     const int step = (now - at + kQuadrants) % kQuadrants;
     at = now;
     travelled += step == kQuadrants - 1 ? -1 : step;
-    if (travelled >= kQuadrants * static_cast<int>(turns_.size())) {
-      turns_.push_back({i});
+    if (travelled >= kQuadrants * static_cast<int>(revolutions_.size())) {
+      revolutions_.push_back({i});
     }
-    Turn& turn = turns_.back();
+    Revolution& revolution = revolutions_.back();
     const auto tangent = static_cast<double>(tangents_[i]);
-    ++turn.count;
-    turn.sum += tangent;
-    turn.squares += tangent * tangent;
+    ++revolution.count;
+    revolution.sum += tangent;
+    revolution.squares += tangent * tangent;
   }
-  return turns_.size() >= kFewestTurns && turns_are_beams();
+  return revolutions_.size() >= kFewestRevolutions && revolutions_are_beams();
 }
 
-bool BeamIndex::turns_are_beams() const {
+bool BeamIndex::revolutions_are_beams() const {
   double within = 0.0;
-  Turn all;
-  for (const Turn& turn : turns_) {
-    within += turn.squares - turn.sum * turn.sum / static_cast<double>(turn.count);
-    all.count += turn.count;
-    all.sum += turn.sum;
-    all.squares += turn.squares;
+  Revolution all;
+  for (const Revolution& revolution : revolutions_) {
+    within += revolution.squares - revolution.sum * revolution.sum / static_cast<double>(revolution.count);
+    all.count += revolution.count;
+    all.sum += revolution.sum;
+    all.squares += revolution.squares;
   }
   return within < kLargestShare * (all.squares - all.sum * all.sum / static_cast<double>(all.count));
 }
@@ -102,17 +102,17 @@ void BeamIndex::assign(const SweepView& sweep, std::vector<Beam>& beams) {
                    [](std::uint16_t ring) { return ring < kBeams ? ring : kNoBeam; });
     return;
   }
-  if (!find_turns(sweep.points, find_tangents(sweep.points))) {
+  if (!find_revolutions(sweep.points, find_tangents(sweep.points))) {
     std::transform(tangents_.begin(), tangents_.end(), beams.begin(),
                    [](float tangent) { return std::isfinite(tangent) ? beam_of(tangent) : kNoBeam; });
     return;
   }
-  for (std::size_t t = 0; t < turns_.size(); ++t) {
-    const Turn& turn = turns_[t];
-    const std::size_t end = t + 1 < turns_.size() ? turns_[t + 1].first : n;
-    const Beam beam = beam_of(static_cast<float>(turn.sum / static_cast<double>(turn.count)));
-    std::fill(beams.begin() + static_cast<std::ptrdiff_t>(turn.first), beams.begin() + static_cast<std::ptrdiff_t>(end),
-              beam);
+  for (std::size_t t = 0; t < revolutions_.size(); ++t) {
+    const Revolution& revolution = revolutions_[t];
+    const std::size_t end = t + 1 < revolutions_.size() ? revolutions_[t + 1].first : n;
+    const Beam beam = beam_of(static_cast<float>(revolution.sum / static_cast<double>(revolution.count)));
+    std::fill(beams.begin() + static_cast<std::ptrdiff_t>(revolution.first),
+              beams.begin() + static_cast<std::ptrdiff_t>(end), beam);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "rilo/cloud/deskew.hpp"
+#include "cloud/deskew.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 namespace rilo {
 
 namespace {
-constexpr int kKnots = 129;
+constexpr int kKnots = 129;  // see SweepMotion for the error that is left
 }
 
 SweepMotion::SweepMotion(const Vector6d& twist, float begin_s, float end_s)

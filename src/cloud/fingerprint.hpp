@@ -1,4 +1,4 @@
-// What tells a sweep from others.
+// Recognises a sweep that is repeated.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ class Fingerprint {
   }
 
  private:
-  static constexpr std::size_t kStride = 32;
+  static constexpr std::size_t kStride = 32;  // a sample suffices: two sweeps of a sensor share hardly a point
   std::size_t size_ = 0;
   std::vector<Eigen::Vector3f> sample_;
 };

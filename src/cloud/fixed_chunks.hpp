@@ -43,8 +43,8 @@ void for_each_index(std::size_t count, const Body& body) {
   results.take();
 }
 
-inline constexpr std::size_t kChunkSize = 1024;
-inline constexpr std::size_t kSmallChunkSize = 128;  // where an item is much work
+inline constexpr std::size_t kChunkSize = 1024;      // large against the cost of a task
+inline constexpr std::size_t kSmallChunkSize = 128;  // for items that are much work
 
 /// Number of chunks that for_fixed_chunks cuts `count` items into.
 template <std::size_t Size = kChunkSize>

@@ -1,18 +1,18 @@
-#include "rilo/cloud/map_normals.hpp"
+#include "cloud/map_normals.hpp"
 
 #include <cstddef>
 
 #include "cloud/fixed_chunks.hpp"
-#include "rilo/cloud/point_grid.hpp"
-#include "rilo/geometry/symmetric_eigen.hpp"
+#include "cloud/point_grid.hpp"
+#include "geometry/symmetric_eigen.hpp"
 
 namespace rilo {
 
 namespace {
 
-constexpr std::size_t kNeighbours = 20;
-constexpr std::size_t kLeastForNormal = 5;
-constexpr double kLeastSpread = 0.01;  // middle to largest eigenvalue: below, the points are a line
+constexpr std::size_t kNeighbours = 20;     // the plane of a map point: usual, no pose depends on it
+constexpr std::size_t kLeastForNormal = 5;  // fewer points are a plane by chance
+constexpr double kLeastSpread = 0.01;       // middle to largest eigenvalue: below, the points are a line
 
 Eigen::Vector3f normal_of(const PointGrid& grid, const std::vector<Neighbour>& around,
                           const Eigen::Vector3f& to_sensor) {

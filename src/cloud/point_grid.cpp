@@ -1,4 +1,4 @@
-#include "rilo/cloud/point_grid.hpp"
+#include "cloud/point_grid.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,20 +1,20 @@
-#include "rilo/cloud/preprocess.hpp"
+#include "cloud/preprocess.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "cloud/elevation.hpp"
 #include "cloud/fixed_chunks.hpp"
-#include "rilo/cloud/elevation.hpp"
 
 namespace rilo {
 
 namespace {
 
-constexpr int kFirstRounds = 3;
-constexpr std::size_t kBeamSample = 4000;  // points
-constexpr std::size_t kPhaseStep = 7;
-constexpr double kSceneSmoothing = 0.1;  // about a second at 10 Hz
+constexpr int kFirstRounds = 3;            // to find the voxel of the first sweep
+constexpr std::size_t kBeamSample = 4000;  // points: enough for 128 beams at little cost
+constexpr std::size_t kPhaseStep = 7;      // prime: the samples of successive sweeps differ
+constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz
 
 }  // namespace
 
@@ -23,7 +23,7 @@ const PreparedSweep& Preprocessor::prepare(const SweepView& sweep) {
   normalise_times(sweep);
   prepared_.valid_points = cropped_.size();
   sample_beams();
-  // A sweep without points says nothing about the scale: the next one is still the first.
+  // A sweep without points gives no scale: the next one is still the first.
   const bool scale_unknown = source_voxel_m_ <= 0.0;
   if (scale_unknown) {
     // The first sweep finds the scale of the place; a few rounds are enough because the count goes with about the
@@ -91,7 +91,7 @@ void Preprocessor::sample_beams() {
   if (!beams_tracked_) {
     return;
   }
-  // Every so many points, from another one on in each sweep. Odd: where the points lie firing by firing, an even step
+  // Every stride-th point, with another offset in each sweep. Odd: where the points lie firing by firing, an even step
   // would meet the same beams again and again.
   const std::size_t stride = (cropped_.size() / kBeamSample) | 1U;
   sample_phase_ = (sample_phase_ + kPhaseStep) % stride;
@@ -136,8 +136,8 @@ void Preprocessor::crop(const SweepView& sweep) {
   const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
   const auto min2 = static_cast<float>(config_.min_range_m * config_.min_range_m);
   const auto max2 = static_cast<float>(config_.max_range_m * config_.max_range_m);
-  const bool turned = elevation_offset_rad_ != 0.0;
-  const ElevationTurn turn(elevation_offset_rad_);
+  const bool rotated = elevation_offset_rad_ != 0.0;
+  const ElevationRotation rotation(elevation_offset_rad_);
   if (beams_tracked_) {
     beam_index_.assign(sweep, beams_);
   }
@@ -150,15 +150,15 @@ void Preprocessor::crop(const SweepView& sweep) {
   cropped_.points.resize(kept);
   cropped_.offsets_s.resize(timed ? kept : 0);
   cropped_beams_.resize(beams_tracked_ ? kept : 0);
-  const bool bright = intensities_kept_ && sweep.intensities.size() == sweep.points.size();
-  cropped_.intensities.resize(bright ? kept : 0);
+  const bool intense = intensities_kept_ && sweep.intensities.size() == sweep.points.size();
+  cropped_.intensities.resize(intense ? kept : 0);
   for_fixed_chunks(sweep.points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
     std::size_t to = chunk_begins_[chunk];
     for (std::size_t i = first; i < last; ++i) {
       if (!valid(i)) {
         continue;
       }
-      const Eigen::Vector3f p = turned ? turn(sweep.points[i]) : sweep.points[i];
+      const Eigen::Vector3f p = rotated ? rotation(sweep.points[i]) : sweep.points[i];
       cropped_.points[to] = beams_tracked_ ? beam_angles_.corrected(p, beams_[i]) : p;
       if (beams_tracked_) {
         cropped_beams_[to] = beams_[i];
@@ -166,7 +166,7 @@ void Preprocessor::crop(const SweepView& sweep) {
       if (timed) {
         cropped_.offsets_s[to] = sweep.times_s[i];
       }
-      if (bright) {
+      if (intense) {
         cropped_.intensities[to] = sweep.intensities[i];
       }
       ++to;

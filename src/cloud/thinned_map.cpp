@@ -1,7 +1,7 @@
 #include "rilo/cloud/thinned_map.hpp"
 
-#include "rilo/cloud/map_normals.hpp"
-#include "rilo/geometry/voxel_key.hpp"
+#include "cloud/map_normals.hpp"
+#include "geometry/voxel_key.hpp"
 
 namespace rilo {
 

@@ -1,17 +1,17 @@
-#include "rilo/cloud/voxel_mean.hpp"
+#include "cloud/voxel_mean.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "cloud/fixed_chunks.hpp"
-#include "rilo/geometry/voxel_key.hpp"
+#include "geometry/voxel_key.hpp"
 
 namespace rilo {
 
 namespace {
 constexpr std::uint64_t kSecondHalf = 1ULL << 63U;  // a bit that voxel_key leaves free
-constexpr std::size_t kFirstMeanSlots = 1U << 12U;
-constexpr std::size_t kAhead = 16;  // the table's memory is asked for so many points before it is needed
+constexpr std::size_t kFirstMeanSlots = 1U << 12U;  // grows by itself; a power of two
+constexpr std::size_t kAhead = 16;                  // the table's memory is prefetched this many points ahead
 }  // namespace
 
 void VoxelMean::find_keys(const TimedCloud& in, double voxel_m) {

@@ -1,8 +1,8 @@
-#include "rilo/cloud/voxel_sampler.hpp"
+#include "cloud/voxel_sampler.hpp"
 
 #include <bit>
 
-#include "rilo/geometry/voxel_key.hpp"
+#include "geometry/voxel_key.hpp"
 
 namespace rilo {
 

@@ -1,4 +1,4 @@
-#include "rilo/config/bench_plan.hpp"
+#include "config/bench_plan.hpp"
 
 #include <algorithm>
 #include <charconv>

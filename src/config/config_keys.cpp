@@ -1,8 +1,9 @@
+#include "config/config_keys.hpp"
+
 #include <algorithm>
 #include <utility>
 
-#include "rilo/config/nearest_word.hpp"
-#include "rilo/config/odometry_keys.hpp"
+#include "config/nearest_word.hpp"
 
 namespace rilo {
 namespace {
@@ -12,32 +13,31 @@ std::size_t unlikeness(std::string_view wanted, std::string_view known) {
   return std::min(edit_distance(wanted, known), edit_distance(last_part(wanted), last_part(known)) + 1);
 }
 
+std::string_view without_expert(std::string_view name) {
+  const std::size_t length = kExpertSection.size();
+  const bool expert = name.starts_with(kExpertSection) && name.size() > length && name[length] == '.';
+  return expert ? name.substr(length + 1) : name;
+}
+
 }  // namespace
 
-void ConfigKeys::add(std::string_view name, std::string_view unit, std::string_view meaning,
-                     ConfigKey::Binding binding) {
+void ConfigKeys::add(const KeyInfo& key, ConfigKey::Binding binding) {
   ConfigSection& section = sections_.back();
-  std::string full = section.name.empty() ? std::string(name) : section.name + "." + std::string(name);
-  section.keys.emplace_back(std::move(full), std::string(unit), std::string(meaning), std::move(binding));
+  std::string full = section.name.empty() ? std::string(key.name) : section.name + "." + std::string(key.name);
+  section.keys.emplace_back(std::move(full), key, std::move(binding));
 }
 
-void ConfigKeys::real(std::string_view name, double& member, double least, double most, std::string_view unit,
-                      std::string_view meaning) {
-  add(name, unit, meaning, ConfigKey::Real{&member, least, most});
+void ConfigKeys::real(const KeyInfo& key, double& member, double least, double most) {
+  add(key, ConfigKey::Real{&member, least, most});
 }
 
-void ConfigKeys::integer(std::string_view name, int& member, int least, int most, std::string_view unit,
-                         std::string_view meaning) {
-  add(name, unit, meaning, ConfigKey::Integer{&member, least, most});
+void ConfigKeys::integer(const KeyInfo& key, int& member, int least, int most) {
+  add(key, ConfigKey::Integer{&member, least, most});
 }
 
-void ConfigKeys::boolean(std::string_view name, bool& member, std::string_view meaning) {
-  add(name, "", meaning, ConfigKey::Boolean{&member});
-}
+void ConfigKeys::boolean(const KeyInfo& key, bool& member) { add(key, ConfigKey::Boolean{&member}); }
 
-void ConfigKeys::choice_of(std::string_view name, KeyChoice choice, std::string_view meaning) {
-  add(name, "", meaning, std::move(choice));
-}
+void ConfigKeys::choice_of(const KeyInfo& key, KeyChoice choice) { add(key, std::move(choice)); }
 
 ConfigKeys odometry_keys(OdometryConfig& config) {
   ConfigKeys keys;
@@ -46,6 +46,7 @@ ConfigKeys odometry_keys(OdometryConfig& config) {
 }
 
 const ConfigKey* ConfigKeys::find(std::string_view name) const {
+  name = without_expert(name);
   for (const ConfigSection& section : sections_) {
     for (const ConfigKey& key : section.keys) {
       if (key.name() == name) return &key;
@@ -55,11 +56,13 @@ const ConfigKey* ConfigKeys::find(std::string_view name) const {
 }
 
 bool ConfigKeys::has_section(std::string_view name) const {
+  name = without_expert(name);
   return std::any_of(sections_.begin(), sections_.end(),
                      [&](const ConfigSection& section) { return !section.name.empty() && section.name == name; });
 }
 
 std::string ConfigKeys::nearest(std::string_view name) const {
+  name = without_expert(name);
   constexpr std::size_t kMost = 3;  // names that are equally near
   const std::string_view section_meant = name.substr(0, std::min(name.find('.'), name.size()));
   const bool within = name.find('.') != std::string_view::npos && has_section(section_meant);

@@ -2,16 +2,47 @@
 
 #include <fmt/format.h>
 
+#include "config/config_keys.hpp"
 #include "rilo/config/config_file.hpp"
-#include "rilo/config/odometry_keys.hpp"
 
 namespace rilo {
 namespace {
 
-// "m, 0 … 100: what it does"
+// "[m, 0 … 100] meaning (source)"
 std::string comment_of(const ConfigKey& key) {
   const std::string unit = key.unit().empty() ? "" : key.unit() + ", ";
-  return fmt::format("{}{}: {}", unit, key.allowed(), key.meaning());
+  const std::string source = key.expert() ? " (" + key.source() + ")" : "";
+  return fmt::format("[{}{}] {}{}", unit, key.allowed(), key.meaning(), source);
+}
+
+std::vector<ConfigKey> keys_of_tier(const ConfigSection& section, bool expert) {
+  std::vector<ConfigKey> keys;
+  std::copy_if(section.keys.begin(), section.keys.end(), std::back_inserter(keys),
+               [&](const ConfigKey& key) { return key.expert() == expert; });
+  return keys;
+}
+
+// The keys of one tier, section by section, each line indented by `indent`.
+std::string dump_tier(const ConfigKeys& all, bool expert, const std::string& indent) {
+  std::string text;
+  for (const ConfigSection& section : all.sections()) {
+    const std::vector<ConfigKey> keys = keys_of_tier(section, expert);
+    if (keys.empty()) continue;
+    const std::string deeper = indent + (section.name.empty() ? "" : "  ");
+    std::vector<std::string> entries;
+    std::size_t width = 0;
+    for (const ConfigKey& key : keys) {
+      entries.push_back(fmt::format("{}{}: {}", deeper, key.last_name(), key.value()));
+      width = std::max(width, entries.back().size());
+    }
+    if (!section.name.empty()) {
+      text += fmt::format("\n{}# {}\n{}{}:\n", indent, section.meaning, indent, section.name);
+    }
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      text += fmt::format("{:<{}}  # {}\n", entries[i], width, comment_of(keys[i]));
+    }
+  }
+  return text;
 }
 
 }  // namespace
@@ -19,34 +50,34 @@ std::string comment_of(const ConfigKey& key) {
 std::string dump_config(const OdometryConfig& config) {
   OdometryConfig copy = config;
   const ConfigKeys keys = odometry_keys(copy);
-  std::string text = "# Configuration of the odometry. Behind each value: unit, allowed values, meaning.\n";
-  for (const ConfigSection& section : keys.sections()) {
-    const std::string indent = section.name.empty() ? "" : "  ";
-    std::vector<std::string> entries;
-    std::size_t width = 0;
-    for (const ConfigKey& key : section.keys) {
-      entries.push_back(fmt::format("{}{}: {}", indent, key.last_name(), key.value()));
-      width = std::max(width, entries.back().size());
-    }
-    if (!section.name.empty()) text += fmt::format("\n# {}\n{}:\n", section.meaning, section.name);
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      text += fmt::format("{:<{}}  # {}\n", entries[i], width, comment_of(section.keys[i]));
-    }
-  }
-  return text;
+  std::string text = "# Configuration of the odometry. Behind each value: [unit, allowed values] meaning.\n";
+  text += dump_tier(keys, false, "");
+  text += fmt::format(
+      "\n# For experiments with the method: no sensor and no robot needs another value. In parentheses, where it "
+      "comes\n"
+      "# from: a section of the paper (III-A ...) or a row of the experiments in docs/benchmarks.md.\n{}:\n",
+      kExpertSection);
+  return text + dump_tier(keys, true, "  ");
 }
 
 std::string config_markdown(const OdometryConfig& config) {
   OdometryConfig copy = config;
   const ConfigKeys keys = odometry_keys(copy);
-  std::string text;
+  std::string text = "| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n";
+  const auto row = [](const ConfigKey& key) {
+    return fmt::format("| `{}` | {} | {} | {} | {} |", key.name(), key.value(), key.unit(), key.allowed(),
+                       key.meaning());
+  };
   for (const ConfigSection& section : keys.sections()) {
-    if (!section.name.empty()) text += fmt::format("\n### {}\n\n{}.\n\n", section.name, section.meaning);
-    text += "| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n";
-    for (const ConfigKey& key : section.keys) {
-      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name(), key.value(), key.unit(), key.allowed(),
-                          key.meaning());
-    }
+    for (const ConfigKey& key : keys_of_tier(section, false)) text += row(key) + "\n";
+  }
+  text += "\n### Expert keys\n";
+  for (const ConfigSection& section : keys.sections()) {
+    const std::vector<ConfigKey> expert = keys_of_tier(section, true);
+    if (expert.empty()) continue;
+    text += fmt::format("\n#### {}\n\n{}.\n\n", section.name, section.meaning);
+    text += "| key | default | unit | allowed | meaning | source of the value |\n|---|---|---|---|---|---|\n";
+    for (const ConfigKey& key : expert) text += fmt::format("{} {} |\n", row(key), key.source());
   }
   return text;
 }

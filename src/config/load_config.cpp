@@ -3,9 +3,9 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "config/config_keys.hpp"
 #include "config/yaml_document.hpp"
 #include "rilo/config/config_file.hpp"
-#include "rilo/config/odometry_keys.hpp"
 
 namespace rilo {
 namespace {
@@ -16,7 +16,7 @@ using detail::quoted;
 
 constexpr const char* kConfigHint = "`rilo config --dump` shows how the file looks";
 
-// Where a value stands, for messages.
+// Where a value is, for messages.
 struct Place {
   std::string file;
   std::string position;
@@ -62,8 +62,9 @@ class Loader {
   void load_entry(const std::string& name, const YAML::Node& key_node, const YAML::Node& value) {
     const Place place{file_, position_of(key_node.Mark())};
     const ConfigKey* key = keys_.find(name);
-    if (key == nullptr && !keys_.has_section(name)) refuse_key(keys_, name, place);
-    if (!seen_.insert(name).second) {
+    if (key == nullptr && !keys_.has_section(name) && name != kExpertSection) refuse_key(keys_, name, place);
+    // A section may come twice, among the user's keys and the expert ones; a key has one name.
+    if (!seen_.insert(key != nullptr ? key->name() : name).second) {
       throw ConfigError({file_, place.position, name + " is given a second time", "each key once", "Keep one of them"});
     }
     if (key == nullptr) {

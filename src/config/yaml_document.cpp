@@ -6,7 +6,7 @@
 
 #include <yaml-cpp/eventhandler.h>
 
-#include "rilo/config/config_error.hpp"
+#include "rilo/config/config_file.hpp"
 
 namespace rilo::detail {
 namespace {

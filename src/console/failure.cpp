@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "rilo/config/config_error.hpp"
+#include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {

@@ -1,4 +1,4 @@
-#include "rilo/evaluation/association.hpp"
+#include "evaluation/association.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -8,8 +8,8 @@
 
 #include <Eigen/LU>
 
+#include "geometry/degrees.hpp"
 #include "rilo/evaluation/alignment.hpp"
-#include "rilo/geometry/degrees.hpp"
 
 namespace rilo {
 

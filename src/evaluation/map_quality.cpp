@@ -15,8 +15,8 @@
 #include <tbb/task_arena.h>
 
 #include "cloud/fixed_chunks.hpp"
-#include "rilo/cloud/voxel_sampler.hpp"
-#include "rilo/evaluation/percentile.hpp"
+#include "cloud/voxel_sampler.hpp"
+#include "evaluation/percentile.hpp"
 
 namespace rilo {
 

@@ -1,4 +1,4 @@
-#include "rilo/evaluation/paired_comparison.hpp"
+#include "evaluation/paired_comparison.hpp"
 
 #include <algorithm>
 #include <cmath>

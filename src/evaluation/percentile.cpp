@@ -1,4 +1,4 @@
-#include "rilo/evaluation/percentile.hpp"
+#include "evaluation/percentile.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -7,7 +7,7 @@ namespace rilo {
 namespace {
 
 // Below this angle the closed forms lose digits to cancellation and their Taylor series are exact to double precision.
-constexpr double kSmallAngleRad = 1e-4;
+constexpr double kSmallAngleRad = 1e-4;  // below it the series are exact to double precision
 
 /// V(phi) with t = V * rho in the exponential of SE(3) (the left Jacobian of SO(3)).
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& phi) {

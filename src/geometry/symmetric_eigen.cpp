@@ -1,4 +1,4 @@
-#include "rilo/geometry/symmetric_eigen.hpp"
+#include "geometry/symmetric_eigen.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,10 +1,10 @@
-#include "rilo/io/elevation_correction.hpp"
+#include "io/elevation_correction.hpp"
 
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "rilo/geometry/degrees.hpp"
+#include "geometry/degrees.hpp"
 
 namespace rilo {
 namespace {

@@ -1,4 +1,4 @@
-#include "rilo/io/ground_truth.hpp"
+#include "io/ground_truth.hpp"
 
 #include <algorithm>
 #include <system_error>

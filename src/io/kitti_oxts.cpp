@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/degrees.hpp"
 #include "io/file_bytes.hpp"
 #include "io/kitti_calibration.hpp"
 #include "io/scan_listing.hpp"
 #include "io/text.hpp"
-#include "rilo/geometry/degrees.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/pose_writer.hpp"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "rilo/io/ground_truth.hpp"
+#include "io/ground_truth.hpp"
 
 namespace rilo::detail {
 

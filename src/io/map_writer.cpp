@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "io/atomic_file.hpp"
 #include "io/raw_bytes.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
@@ -27,9 +28,11 @@ bool is_ply(const std::filesystem::path& file) {
 }  // namespace
 
 MapWriter::MapWriter(const std::filesystem::path& file, MapColumns columns)
-    : ply_(is_ply(file)), columns_(columns), file_(file) {
-  file_.write(header());
+    : ply_(is_ply(file)), columns_(columns), file_(std::make_unique<AtomicFile>(file)) {
+  file_->write(header());
 }
+
+MapWriter::~MapWriter() = default;
 
 void MapWriter::add(const MapCloud& part) {
   const std::size_t count = part.points.size();
@@ -43,14 +46,14 @@ void MapWriter::add(const MapCloud& part) {
     for (Eigen::Index k = 0; k < 3; ++k) detail::append_bytes(rows, part.points[i][k]);
     for (Eigen::Index k = 0; columns_.normals && k < 3; ++k) detail::append_bytes(rows, part.normals[i][k]);
     if (columns_.intensity) detail::append_bytes(rows, part.intensities[i]);
-    file_.write(rows);
+    file_->write(rows);
   }
   count_ += count;
 }
 
 void MapWriter::finish() {
-  file_.overwrite(0, header());
-  file_.commit();
+  file_->overwrite(0, header());
+  file_->commit();
 }
 
 // Always of the same length: a comment takes up what the count leaves.

@@ -5,17 +5,17 @@
 #include <utility>
 
 #include "io/bin_fields.hpp"
+#include "io/elevation_correction.hpp"
 #include "io/file_source.hpp"
 #include "io/packets/packet_source.hpp"
+#include "io/prefetch_source.hpp"
 #include "io/ros/live_recording.hpp"
 #include "io/ros/recording_source.hpp"
 #include "io/scan_listing.hpp"
 #include "io/stamp_order.hpp"
 #include "io/text.hpp"
-#include "rilo/io/elevation_correction.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/live_source.hpp"
-#include "rilo/io/prefetch_source.hpp"
 #include "rilo/io/scan_source.hpp"
 
 namespace rilo {

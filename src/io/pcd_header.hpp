@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/cloud_columns.hpp"
-#include "rilo/io/sweep_writer.hpp"
+#include "io/sweep_writer.hpp"
 
 namespace rilo::detail {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/sweep_writer.hpp"
 #include "rilo/io/cloud_reader.hpp"
-#include "rilo/io/sweep_writer.hpp"
 
 namespace rilo::detail {
 

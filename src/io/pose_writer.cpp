@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "io/atomic_file.hpp"
 #include "io/unit_quaternion.hpp"
-#include "rilo/io/atomic_file.hpp"
 
 namespace rilo {
 

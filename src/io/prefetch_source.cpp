@@ -1,4 +1,4 @@
-#include "rilo/io/prefetch_source.hpp"
+#include "io/prefetch_source.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "rilo/io/sweep_writer.hpp"
+#include "io/sweep_writer.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "io/atomic_file.hpp"
 #include "io/lzf.hpp"
 #include "io/raw_bytes.hpp"
-#include "rilo/io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {

@@ -1,22 +1,22 @@
-#include "rilo/map/local_map.hpp"
+#include "map/local_map.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
+#include "cloud/elevation.hpp"
 #include "cloud/fixed_chunks.hpp"
-#include "rilo/cloud/elevation.hpp"
 
 namespace rilo {
 
 namespace {
 
-// A larger voxel sees more of the sweeps: filled by the first points of the first one it would know one or two beams.
-constexpr double kMorePointsALevel = 1.5;
+// A larger voxel needs points of several sweeps: the first one alone would fill it from one or two beams.
+constexpr double kMorePointsPerLevel = 1.5;
 
-/// Whether `finer`, the next level, has points in the voxel of `coarse` that holds `p`. Its centroid alone does not
-/// tell: it may lie in the free space between them.
+/// Whether `finer`, the next level, has points in the voxel of `coarse` that holds `p`. The centroid is not enough: it
+/// may lie in the free space between them.
 bool seen_finer(const PlaneGrid& coarse, const PlaneGrid& finer, const Eigen::Vector3f& p) {
   const VoxelIndex index = voxel_of(p, 1.0 / coarse.voxel_m());
   for (int child = 0; child < 8; ++child) {
@@ -36,7 +36,7 @@ void LocalMap::clear() {
   grids_.clear();
   double voxel = config_.voxel_m;
   double most = config_.max_points;
-  for (int level = 0; level < config_.levels; ++level, voxel *= 2.0, most *= kMorePointsALevel) {
+  for (int level = 0; level < config_.levels; ++level, voxel *= 2.0, most *= kMorePointsPerLevel) {
     const auto max_points = static_cast<std::int32_t>(std::min(most, 1e9));
     grids_.emplace_back(voxel,
                         PlaneCriteria{config_.min_points, max_points, config_.max_planarity, config_.min_extent * voxel,
@@ -46,7 +46,7 @@ void LocalMap::clear() {
 
 void LocalMap::set_scene_range(double range_m) {
   if (!(range_m > 0.0) || !std::isfinite(range_m)) {
-    return;  // a sweep without points tells nothing
+    return;  // a sweep without points
   }
   const double level = std::round(std::log2(range_m / (config_.scene_voxels * config_.voxel_m)));
   // The coarsest level alone would leave edges and small things out: the one below it is always in use.
@@ -54,16 +54,18 @@ void LocalMap::set_scene_range(double range_m) {
   finest_ = static_cast<std::size_t>(std::clamp(level, 0.0, last));
 }
 
-void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar, const RigidLever& pose) {
+void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar,
+                      const PoseDerivative& pose_by_elevation) {
   const Eigen::Matrix3f R = T_odom_lidar.linear().cast<float>();
   inserted_.resize(points.size());
   for_fixed_chunks(points.size(), [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Eigen::Vector3d place = T_odom_lidar * points[i].cast<double>();
-      inserted_[i] = {place, R * points[i], R * elevation_lever(points[i]) + pose.at(place).cast<float>()};
+      inserted_[i] = {place, R * points[i],
+                      R * elevation_jacobian(points[i]) + pose_by_elevation.at(place).cast<float>()};
     }
   });
-  // The levels know nothing of one another.
+  // The levels are independent of one another.
   for_each_index(grids_.size() - finest_, [&](std::size_t i) {
     PlaneGrid& grid = grids_[finest_ + i];
     grid.insert(inserted_);
@@ -71,9 +73,9 @@ void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_o
   });
 }
 
-void LocalMap::turn_elevation(double angle_rad, const RigidLever& sensor) {
+void LocalMap::shift_elevation(double angle_rad, const PoseDerivative& sensor) {
   for (PlaneGrid& grid : grids_) {
-    grid.turn_elevation(angle_rad, sensor);
+    grid.shift_elevation(angle_rad, sensor);
   }
 }
 
@@ -93,8 +95,7 @@ bool LocalMap::find(const Eigen::Vector3d& p, MapPlane& plane) const {
   return true;
 }
 
-// Level by level for all points, so that the memory for the next look-up of each is asked for while the others are
-// looked up.
+// Level by level for all points, so that the memory for the next look-up of each is prefetched during the others.
 void LocalMap::locate(std::span<const Eigen::Vector3d> points, Wanted wanted, PlaneSpot* spots) const {
   std::array<VoxelIndex, kBatch> index{};
   std::array<VoxelIndex, kBatch> behind{};

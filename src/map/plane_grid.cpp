@@ -1,4 +1,4 @@
-#include "rilo/map/plane_grid.hpp"
+#include "map/plane_grid.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,55 +8,9 @@
 namespace rilo {
 
 namespace {
-constexpr std::size_t kFirstPlaneSlots = 1U << 12U;
-constexpr double kFaceShare = 0.2;         // a face is near within this share of the voxel
-constexpr double kLeastVariance = 1e-12;   // m²
-constexpr double kLeastReliability = 0.3;  // of a normal: below it the points may as well lie on one cone
-constexpr std::size_t kBatch = 16;         // so many accesses to memory are under way together
-
-/// det(C) C⁻¹ r of a covariance and a unit ray: along the normal of the plane from the regression of the range on the
-/// directions, without bias when all noise is along the ray, as that of the range and of a rough surface seen at a
-/// small angle is.
-Eigen::Vector3d regression_normal(const Eigen::Matrix3d& C, const Eigen::Vector3d& ray) {
-  return C.col(1).cross(C.col(2)) * ray.x() + C.col(2).cross(C.col(0)) * ray.y() + C.col(0).cross(C.col(1)) * ray.z();
-}
-
-/// The covariance `C` (m²) without the noise of the points along the unit `ray`: the known variance, or, where it is
-/// less, what the regression of the range on the directions leaves unexplained, 1 / (rᵀ C⁻¹ r).
-Eigen::Matrix3d without_range_noise(const Eigen::Matrix3d& C, const Eigen::Vector3d& ray,
-                                    const Eigen::Vector3d& regression, double range_noise_m) {
-  const double adjugate_along = ray.dot(regression);
-  const double determinant = C.col(0).dot(C.col(1).cross(C.col(2)));
-  if (!(adjugate_along > 0.0) || !(determinant > 0.0)) {
-    return C;
-  }
-  const double noise = std::min(range_noise_m * range_noise_m, determinant / adjugate_along);
-  return C - noise * ray * ray.transpose();
-}
-
-/// Share of the spread of directions across the unit `ray` (m²) that is not noise of theirs.
-double direction_reliability(const Eigen::Matrix3d& C, const Eigen::Vector3d& ray, double noise_m) {
-  // Covariance across the ray, in two directions u, v; its smaller eigenvalue.
-  const Eigen::Vector3d u = ray.unitOrthogonal();
-  const Eigen::Vector3d v = ray.cross(u);
-  const double uu = u.dot(C * u);
-  const double vv = v.dot(C * v);
-  const double uv = u.dot(C * v);
-  const double half = 0.5 * (uu - vv);
-  const double spread = std::max(0.0, 0.5 * (uu + vv) - std::sqrt(half * half + uv * uv));
-  return spread / (spread + noise_m * noise_m);
-}
-
-/// (n·r)² over that of the regression normal: the squared correlation of range and directions at small angles, 1 where
-/// the plane is seen from the front. Between the two lies the plane, depending on where the noise is: along the ray the
-/// regression is right, equal in all directions the fit. 1 when the regression says nothing.
-double normal_reliability(const Eigen::Vector3d& normal, const Eigen::Vector3d& regression,
-                          const Eigen::Vector3d& ray) {
-  const double most = regression.dot(ray);
-  const double along = normal.dot(ray);
-  const double share = along * along * regression.squaredNorm() / (most * most);
-  return std::isfinite(share) ? std::min(share, 1.0) : 1.0;
-}
+constexpr std::size_t kFirstPlaneSlots = 1U << 12U;  // grows by itself; a power of two
+constexpr double kFaceShare = 0.2;  // of the voxel: a point this near to a face may belong to the surface behind it
+constexpr std::size_t kBatch = 16;  // memory accesses in flight together: as many as hide their latency
 }  // namespace
 
 PlaneGrid::PlaneGrid(double voxel_m, const PlaneCriteria& criteria)
@@ -105,12 +59,12 @@ void PlaneGrid::add(std::uint32_t id, const InsertedPoint& point) {
     voxel.fitted_count = voxel.count;
     voxel.sum *= share;
     voxel.squares *= share;
-    voxel.lever_sum *= share;
+    voxel.elevation_jacobian_sum *= share;
     voxel.ray_sum *= share;
   }
   const Eigen::Vector3f d = (point.place - centre_of(voxel_of(point.place, inverse_))).cast<float>();
   voxel.sum += d;
-  voxel.lever_sum += point.elevation_lever;
+  voxel.elevation_jacobian_sum += point.elevation_jacobian;
   voxel.ray_sum += point.ray;
   voxel.squares[0] += d.x() * d.x();
   voxel.squares[1] += d.x() * d.y();
@@ -126,7 +80,7 @@ void PlaneGrid::add(std::uint32_t id, const InsertedPoint& point) {
   }
 }
 
-void PlaneGrid::turn_elevation(double angle_rad, const RigidLever& sensor) {
+void PlaneGrid::shift_elevation(double angle_rad, const PoseDerivative& sensor) {
   for (std::size_t id = 0; id < pool_.size(); ++id) {
     Voxel& voxel = pool_[id];
     if (voxel.count == 0) {
@@ -136,7 +90,7 @@ void PlaneGrid::turn_elevation(double angle_rad, const RigidLever& sensor) {
     const auto n = static_cast<float>(voxel.count);
     const Eigen::Vector3d centroid = centre_of(voxel) + (voxel.sum / n).cast<double>();
     const Eigen::Vector3f own = sensor.at(centroid).cast<float>();
-    const Eigen::Vector3f shift = static_cast<float>(angle_rad) * (voxel.lever_sum / n - own);
+    const Eigen::Vector3f shift = static_cast<float>(angle_rad) * (voxel.elevation_jacobian_sum / n - own);
     const Eigen::Matrix3f moved = voxel.sum * shift.transpose();
     const Eigen::Matrix3f change = moved + moved.transpose() + n * shift * shift.transpose();
     voxel.squares[0] += change(0, 0);
@@ -148,66 +102,6 @@ void PlaneGrid::turn_elevation(double angle_rad, const RigidLever& sensor) {
     voxel.sum += n * shift;
     planes_[id].mean += shift;
   }
-}
-
-void PlaneGrid::refit() {
-  std::sort(touched_.begin(), touched_.end());
-  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
-  for (const std::uint32_t id : touched_) {
-    // An eviction in between may have freed the place, and an insertion taken it anew.
-    if (pool_[id].count >= criteria_.min_points) {
-      fit(id);
-    }
-  }
-  touched_.clear();
-}
-
-void PlaneGrid::fit(std::uint32_t id) {
-  Voxel& voxel = pool_[id];
-  voxel.fitted_count = voxel.count;
-  const double n = voxel.count;
-  const Eigen::Vector3d mean = voxel.sum.cast<double>() / n;
-  Eigen::Matrix3d C;
-  const Eigen::Matrix<double, 6, 1> s = voxel.squares.cast<double>() / n;
-  C << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
-  C -= mean * mean.transpose();
-  const double range_m = voxel.ray_sum.cast<double>().norm() / n;
-  SymmetricEigen3 surface;
-  double lambda = 1.0;
-  if (range_m > 0.0) {
-    const Eigen::Vector3d ray = voxel.ray_sum.cast<double>() / (n * range_m);
-    const Eigen::Vector3d regression = regression_normal(C, ray);
-    surface = symmetric_eigen(without_range_noise(C, ray, regression, criteria_.range_noise_m));
-    if (criteria_.angle_noise_rad > 0.0) {
-      lambda = direction_reliability(C, ray, criteria_.angle_noise_rad * range_m) *
-               normal_reliability(surface.vectors.col(0), regression, ray);
-    }
-  } else {
-    surface = symmetric_eigen(C);
-  }
-  const double smallest = std::max(surface.values[0], 0.0);
-  const double middle = surface.values[1];
-  const bool reliable = lambda >= kLeastReliability;
-  const bool planar = reliable && middle > criteria_.min_extent_m * criteria_.min_extent_m &&
-                      smallest < criteria_.max_planarity * middle;
-  voxel.fit = planar ? Fit::kPlane : Fit::kNoPlane;
-  planes_[id].mean = mean.cast<float>();
-  planes_[id].weight = static_cast<float>(lambda * lambda);
-  keep_extents(id, C, planar ? surface : symmetric_eigen(C));
-  Slot& slot = slots_[slot_of(voxel.key)];
-  slot.kind = planar ? Kind::kPlane : (reliable ? Kind::kScatter : Kind::kNone);
-  slot.full = slot.full && planar;
-}
-
-void PlaneGrid::keep_extents(std::uint32_t id, const Eigen::Matrix3d& covariance, const SymmetricEigen3& eigen) {
-  // With the noise: it is what makes the normal uncertain.
-  const double smallest = std::max(eigen.vectors.col(0).dot(covariance * eigen.vectors.col(0)), 0.0);
-  planes_[id].normal = eigen.vectors.col(0).cast<float>();
-  planes_[id].thickness = static_cast<float>(std::sqrt(smallest));
-  // Three degrees of freedom went into the plane.
-  extents_[id] = {eigen.vectors.col(1).cast<float>(), static_cast<float>(std::max(eigen.values[1], kLeastVariance)),
-                  static_cast<float>(std::max(eigen.values[2], kLeastVariance)),
-                  static_cast<float>(smallest / std::max(static_cast<double>(pool_[id].count) - 3.0, 1.0))};
 }
 
 bool PlaneGrid::find(const Eigen::Vector3d& p, MapPlane& plane) const {

@@ -1,4 +1,4 @@
-#include "rilo/odometry/adaptive_threshold.hpp"
+#include "odometry/adaptive_threshold.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "rilo/odometry/health.hpp"
+#include "odometry/health.hpp"
 
 #include <algorithm>
 
 namespace rilo {
 
 namespace {
-// Where a sweep belongs it converges, in 16 iterations at most on 95 % of the sweeps of each drive without faults. Told
-// to take fewer, the registration is not asked to.
+// Where a sweep belongs it converges, in 16 iterations at most on 95 % of the sweeps of each drive without faults. With
+// fewer allowed, convergence is not required.
 constexpr int kEnoughIterations = 20;
 constexpr double kYoungShare = 0.5;  // of the usual score, that a map of a few sweeps reaches
 // In a place that shows less and less, the first sweep that is lost would lose all that follow.

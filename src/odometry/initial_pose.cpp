@@ -1,35 +1,36 @@
-#include "rilo/odometry/initial_pose.hpp"
+#include "odometry/initial_pose.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "rilo/cloud/deskew.hpp"
-#include "rilo/registration/map_score.hpp"
+#include "cloud/deskew.hpp"
+#include "registration/map_score.hpp"
 
 namespace rilo {
 
 namespace {
-constexpr double kLearningRate = 0.2;
-constexpr double kDoubtfulLearningRate = 0.02;
-// The search looks at fewer points and more tolerantly than the score: it only has to find the right valley.
+constexpr double kLearningRate = 0.2;           // of the usual score: about five sweeps
+constexpr double kDoubtfulLearningRate = 0.02;  // of a score below the alarm
+// The search looks at fewer points and more tolerantly than the score: it only has to find the basin of convergence.
 constexpr std::size_t kSearchPoints = 300;
 constexpr double kSearchSigmaM = 0.3;
-constexpr double kSearchShiftStepM = 0.5;
+constexpr double kSearchShiftStepM = 0.5;  // within the reach of the coarse stage
 constexpr double kSearchYawStepRad = 0.1;
-constexpr std::size_t kSearchStarts = 4;
+constexpr std::size_t kSearchStarts = 4;  // the cost of each is one coarse registration
 // A cloud compensated for a slightly wrong velocity is as good a target: at either end of a sweep of 0.1 s its points
 // are off by less than the least noise of the coarse stage.
 constexpr double kHalfSweepS = 0.05;
 // A sweep whose score over its residuals is below this share of the usual ratio may have been taken at another time
-// than its stamp says: so many periods earlier or later, looked for in steps of at most these.
+// than its stamp: this many periods earlier or later, searched in steps of at most these.
 constexpr double kSuspicious = 0.8;
 constexpr double kPeriodsEarlier = 2.0;
 constexpr double kPeriodsLater = 12.0;
 constexpr double kPathStepM = 0.3;
 constexpr double kPathStepRad = 0.05;
 constexpr double kMostPathSteps = 100.0;
-constexpr std::size_t kPathPlaces = 3;
+constexpr std::size_t kPathPlaces = 3;  // the cost of each is one fine registration
+// Velocities that differ by less over half a sweep are the same for the coarse stage.
 constexpr double kSameTurnRad = 0.005;
 constexpr double kSameShiftM = 0.05;
 }  // namespace
@@ -53,16 +54,10 @@ InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& 
   return choice;
 }
 
-// One decision, step by step.
-// NOLINTNEXTLINE(readability-function-size)
-InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState& predicted, const SE3& previous,
-                                     const std::function<Vector6d(const SE3&)>& twist_at, const LocalMap& map,
-                                     bool single, bool in_doubt, const std::function<bool()>& time_left) {
-  ScoredPose prediction{predicted.T_odom_lidar, score(source, predicted, map)};
-  if (single) {
-    // All points: the candidates differ by few of them.
-    prediction.score = map_score(compensated_, map, predicted.T_odom_lidar, config_.score_sigma_m);
-  }
+InitialPose InitialPoseStage::choose(const Situation& situation) {
+  const MotionState& predicted = situation.predicted;
+  const ScoredPose prediction{predicted.T_odom_lidar,
+                              candidate_score(situation, predicted.T_odom_lidar, predicted.twist)};
   InitialPose choice;
   choice.T_odom_lidar = prediction.T_odom_lidar;
   choice.prediction_score = prediction.score;
@@ -70,68 +65,77 @@ InitialPose InitialPoseStage::choose(const TimedCloud& source, const MotionState
     choice.reason = InitialPoseReason::kCoarseDisabled;
     return choice;
   }
-  const bool doubt = in_doubt || !explains(prediction.score);
+  const bool doubt = situation.in_doubt || !is_consistent(prediction.score);
   if (!doubt && !coarse_.always) {
     return choice;
   }
-  if (time_left && !time_left()) {
+  if (situation.time_left && !situation.time_left()) {
     choice.coarse_cut = true;
     choice.reason = InitialPoseReason::kNoTime;
     return choice;
   }
-  moving_ = distribution(compensated_);
+  const Search found = search(situation, doubt);
+  choice = select_initial_pose(prediction, found.best, config_);
+  choice.coarse_iterations = found.iterations;
+  choice.coarse_starts = found.starts;
+  choice.coarse_cut = found.cut;
+  return choice;
+}
+
+InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bool doubt) {
+  const MotionState& predicted = situation.predicted;
+  moving_ = distribution(compensated_);  // for predicted.twist, since the prediction was scored last
   moving_twist_ = predicted.twist;
   if (!target_) {
     target_ = distribution(target_points_);
   }
-  ScoredPose best{prediction.T_odom_lidar, -1.0};
-  int iterations = 0;
-  int starts = 0;
-  bool cut = false;
-  const auto consider = [&](const SE3& T) {
-    double value = 0.0;
-    if (single) {
-      deskew(source, predicted.twist, compensated_);
-      value = map_score(compensated_, map, T, config_.score_sigma_m);
-    } else {
-      // Each candidate implies its own motion during the sweep, and is judged on the sweep compensated for it.
-      value = score(source, {T, twist_at(T)}, map);
-    }
-    if (value > best.score) {
-      best = {T, value};
-    }
-  };
-  const auto try_from = [&](const SE3& start) {
-    cut = cut || (starts > 0 && time_left && !time_left());
-    if (cut) {
-      return;
-    }
-    ++starts;
-    const CoarseResult result = coarse_registration(*moving_, *target_, previous.inverse() * start, coarse_);
-    iterations += result.iterations;
-    consider(previous * result.T_target_source);
-  };
-  try_from(prediction.T_odom_lidar);
-  if (doubt && !explains(best.score)) {
-    try_from(previous);  // no motion
+  Search found;
+  found.best = {predicted.T_odom_lidar, -1.0};
+  try_from(situation, predicted.T_odom_lidar, found);
+  if (doubt && !is_consistent(found.best.score)) {
+    try_from(situation, situation.previous, found);  // no motion
   }
-  if (doubt && config_.restarts && !cut && !explains(best.score)) {
-    deskew(source, predicted.twist, compensated_);
-    for (const SE3& start : restarts(prediction.T_odom_lidar, map)) {
-      try_from(start);
-      if (single) {
-        consider(start);
+  if (doubt && config_.restarts && !found.cut && !is_consistent(found.best.score)) {
+    deskew(situation.source, predicted.twist, compensated_);
+    for (const SE3& start : restarts(predicted.T_odom_lidar, situation.map)) {
+      try_from(situation, start, found);
+      if (situation.single) {
+        consider(situation, start, found.best);
       }
     }
   }
-  choice = select_initial_pose(prediction, best, config_);
-  choice.coarse_iterations = iterations;
-  choice.coarse_starts = starts;
-  choice.coarse_cut = cut;
-  return choice;
+  return found;
 }
 
-bool InitialPoseStage::explains(double score) const {
+void InitialPoseStage::try_from(const Situation& situation, const SE3& start, Search& search) {
+  search.cut = search.cut || (search.starts > 0 && situation.time_left && !situation.time_left());
+  if (search.cut) {
+    return;
+  }
+  ++search.starts;
+  const CoarseResult result = coarse_registration(*moving_, *target_, situation.previous.inverse() * start, coarse_);
+  search.iterations += result.iterations;
+  consider(situation, situation.previous * result.T_target_source, search.best);
+}
+
+void InitialPoseStage::consider(const Situation& situation, const SE3& T, ScoredPose& best) {
+  // Each candidate implies its own motion during the sweep.
+  const Vector6d twist = situation.single ? situation.predicted.twist : situation.twist_at(T);
+  const double value = candidate_score(situation, T, twist);
+  if (value > best.score) {
+    best = {T, value};
+  }
+}
+
+double InitialPoseStage::candidate_score(const Situation& situation, const SE3& T, const Vector6d& twist) {
+  if (!situation.single) {
+    return score(situation.source, {T, twist}, situation.map);
+  }
+  deskew(situation.source, twist, compensated_);
+  return map_score(compensated_, situation.map, T, config_.score_sigma_m);
+}
+
+bool InitialPoseStage::is_consistent(double score) const {
   return usual_score_ > 0.0 && score >= config_.alarm * usual_score_;
 }
 
@@ -183,7 +187,7 @@ double InitialPoseStage::score(const TimedCloud& source, const MotionState& stat
 }
 
 void InitialPoseStage::learn(double score, double residual_rms_m) {
-  const double rate = explains(score) ? kLearningRate : kDoubtfulLearningRate;
+  const double rate = is_consistent(score) ? kLearningRate : kDoubtfulLearningRate;
   const bool first = !(usual_score_ > 0.0);
   usual_score_ = first ? score : usual_score_ + rate * (score - usual_score_);
   usual_rms_m_ = first ? residual_rms_m : usual_rms_m_ + rate * (residual_rms_m - usual_rms_m_);

@@ -5,7 +5,7 @@
 namespace rilo {
 
 namespace {
-// What poses, and with them the motions between them, may be off by without being wrong.
+// Noise of good poses, and of the motions between them.
 constexpr double kPoseNoiseM = 0.1;
 constexpr double kPoseNoiseRad = 0.035;
 // Stamps of arrival jitter. Up to this ratio of two steps' times the motion per sweep may be the steadier one.

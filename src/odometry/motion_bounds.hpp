@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "rilo/geometry/se3.hpp"
-#include "rilo/odometry/motion_bounds_config.hpp"
+#include "rilo/odometry/odometry_config.hpp"
 
 namespace rilo {
 

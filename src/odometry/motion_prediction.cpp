@@ -1,4 +1,4 @@
-#include "rilo/odometry/motion_prediction.hpp"
+#include "odometry/motion_prediction.hpp"
 
 namespace rilo {
 

@@ -1,4 +1,4 @@
-#include "rilo/odometry/motion_prior.hpp"
+#include "odometry/motion_prior.hpp"
 
 #include <cmath>
 
@@ -9,9 +9,9 @@ namespace rilo {
 namespace {
 // The configured accelerations are changes over this time.
 constexpr double kUnitTimeS = 0.1;
-constexpr double kUnknownTurnRate = 1.0;  // rad/s
-constexpr double kUnknownSpeed = 20.0;    // m/s
-constexpr double kTurnMemoryS = 1.0;
+constexpr double kUnknownTurnRate = 1.0;  // rad/s: a sensor turned by hand
+constexpr double kUnknownSpeed = 20.0;    // m/s: a car on a motorway
+constexpr double kTurnMemoryS = 1.0;      // vehicles end their turns
 }  // namespace
 
 Matrix6d unknown_velocity_covariance() {

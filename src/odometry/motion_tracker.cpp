@@ -3,14 +3,14 @@
 #include <Eigen/Cholesky>
 
 #include "odometry/motion_bounds.hpp"
-#include "rilo/odometry/motion_prediction.hpp"
-#include "rilo/odometry/motion_prior.hpp"
+#include "odometry/motion_prediction.hpp"
+#include "odometry/motion_prior.hpp"
 
 namespace rilo {
 
 namespace {
 constexpr std::size_t kRememberedPoses = 3;  // (III-B)
-constexpr double kStaleSteps = 3.0;          // after a loss of so many steps' time the motion before says nothing
+constexpr double kStaleSteps = 3.0;          // after a loss this long the motion before is no evidence
 }  // namespace
 
 MotionState MotionTracker::predicted(double sigma_th_m) const {

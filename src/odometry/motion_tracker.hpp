@@ -1,26 +1,24 @@
-// The motion so far, from the sweeps that can be trusted, and what it lets one expect.
+// The motion so far, from trusted sweeps, and the motion to expect.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
+#include "registration/adaptive_icp.hpp"
 #include "rilo/geometry/trajectory.hpp"
-#include "rilo/odometry/motion_bounds_config.hpp"
-#include "rilo/odometry/motion_prediction_config.hpp"
-#include "rilo/odometry/motion_prior_config.hpp"
-#include "rilo/registration/adaptive_icp.hpp"
+#include "rilo/odometry/odometry_config.hpp"
 
 namespace rilo {
 
-/// What a pose says of the motion to it.
+/// Verdict on the motion to a pose.
 enum class MotionVerdict : std::uint8_t {
   kPossible,    ///< from the last trusted pose
-  kJump,        ///< not from there, but from the pose that the sweep before claimed in vain: two agree
+  kJump,        ///< not from there, but from the pose that the rejected sweep before had: two agree
   kImpossible,  ///< from neither
 };
 
 /// Follows the sensor on a time of its own. Only poses that were accepted enter; a velocity is never taken from a
-/// motion whose time is in doubt: after a loss or a jump the velocity from before goes on.
+/// motion whose time is in doubt: after a loss or a jump the velocity from before is kept.
 class MotionTracker {
  public:
   MotionTracker(const MotionPredictionConfig& prediction, const MotionPriorConfig& prior,
@@ -40,7 +38,7 @@ class MotionTracker {
 
   /// T_pred (III-B) from the trusted poses, and the velocity.
   MotionState predicted(double sigma_th_m) const;
-  /// The same from the pose that the sweep before claimed in vain, if it did.
+  /// The same from the pose that the sweep before had when it was rejected, if it was.
   std::optional<MotionState> predicted_from_claim() const;
   /// Velocity of a sweep at `T_odom_lidar`: what the motion there implies, where a sensor can move so.
   Vector6d implied_twist(const SE3& T_odom_lidar) const;
@@ -53,7 +51,7 @@ class MotionTracker {
   void begin(const MotionState& state);
   /// Takes the registered state of a sweep. Returns the displacement since the last trusted pose (sensor frame, m).
   Eigen::Vector3d accept(const IcpResult& icp, MotionVerdict verdict, bool degenerate);
-  /// Goes on at the prediction; `claim`: pose at which the sweep fitted the map, had the motion been possible.
+  /// Continues at the prediction; `claim`: pose at which the sweep fitted the map, had the motion been possible.
   void lose(const MotionState& predicted, const std::optional<SE3>& claim);
 
   void reset();

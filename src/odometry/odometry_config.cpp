@@ -30,28 +30,26 @@ class RangeCheck : public KeyVisitor {
  public:
   void section(std::string_view name, std::string_view /*meaning*/) override { section_ = std::string(name) + "."; }
 
-  void real(std::string_view name, double& member, double least, double most, std::string_view /*unit*/,
-            std::string_view /*meaning*/) override {
+  void real(const KeyInfo& key, double& member, double least, double most) override {
     // Comparisons with NaN are false.
-    if (!(member >= least && member <= most)) refuse(full(name), member, range("a number", least, most));
+    if (!(member >= least && member <= most)) refuse(full(key), member, range("a number", least, most));
   }
 
-  void integer(std::string_view name, int& member, int least, int most, std::string_view /*unit*/,
-               std::string_view /*meaning*/) override {
-    if (member < least || member > most) refuse(full(name), member, range("a whole number", least, most));
+  void integer(const KeyInfo& key, int& member, int least, int most) override {
+    if (member < least || member > most) refuse(full(key), member, range("a whole number", least, most));
   }
 
-  void boolean(std::string_view /*name*/, bool& /*member*/, std::string_view /*meaning*/) override {}
+  void boolean(const KeyInfo& /*key*/, bool& /*member*/) override {}
 
-  void choice_of(std::string_view name, KeyChoice choice, std::string_view /*meaning*/) override {
+  void choice_of(const KeyInfo& key, KeyChoice choice) override {
     if (choice.get() < choice.words.size()) return;
     std::string words;
     for (const std::string& word : choice.words) words += (words.empty() ? "" : " or ") + word;
-    refuse(full(name), "none of its values", words);
+    refuse(full(key), "none of its values", words);
   }
 
  private:
-  std::string full(std::string_view name) const { return section_ + std::string(name); }
+  std::string full(const KeyInfo& key) const { return section_ + std::string(key.name); }
 
   std::string section_;
 };

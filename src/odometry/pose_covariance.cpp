@@ -5,16 +5,16 @@
 namespace rilo {
 
 namespace {
-// The registration counts one residual in a hundred as independent, so that the prior is heard. Against the truth of
-// the simulator the poses are as good as if it were this many times more (docs/benchmarks.md), except where a
+// The registration counts one residual in a hundred as independent, so that the prior is not outweighed. Against the
+// truth of the simulator the poses are as good as if it were this many times more (docs/benchmarks.md), except where a
 // direction is hidden: there what the surfaces share in error leaks into the others.
 constexpr double kEvidenceWorth = 12.0;
 // A velocity that changes steadily by a within the sweep moves its points by a t² / 2 against the middle: a T² / 24 on
 // average over the sweep.
 constexpr double kMeanLag = 1.0 / 24.0;
-constexpr double kChangeLearningRate = 0.2;
-// Of the mean square of what swings to and fro, so much is in the pose: measured on the handheld drive and eleven
-// others.
+constexpr double kChangeLearningRate = 0.2;  // about five sweeps
+// Share of the mean square of the oscillation within the sweep that is in the pose: measured on the handheld drive and
+// eleven others.
 constexpr double kUnevenShare = 0.4;
 }  // namespace
 

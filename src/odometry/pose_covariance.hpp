@@ -1,8 +1,8 @@
 // How sure a registered pose is.
 #pragma once
 
+#include "registration/adaptive_icp.hpp"
 #include "rilo/geometry/se3.hpp"
-#include "rilo/registration/adaptive_icp.hpp"
 
 namespace rilo {
 
@@ -14,8 +14,8 @@ class PoseCovariance {
   /// Of the pose of `icp`, right perturbation, [rad; m].
   /// @param degenerate a direction is not observed.
   /// @param before velocity during the sweep before [rad/s; m/s].
-  /// @param sweep_s how long the points were measured; 0 for points that were brought to one instant before.
-  /// @param uneven what uneven_motion() says of the sweep [rad²; m²].
+  /// @param sweep_s how long the points were measured; 0 for points that were motion-compensated before.
+  /// @param uneven uneven_motion() of the sweep [rad²; m²].
   Matrix6d of(const IcpResult& icp, bool degenerate, const Vector6d& before, double sweep_s, const Vector6d& uneven);
 
   /// Share of the residuals that count as independent where a direction is observed.

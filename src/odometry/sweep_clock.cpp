@@ -6,9 +6,9 @@
 namespace rilo {
 
 namespace {
-constexpr std::int64_t kFirstPeriodNs = 100'000'000;     // until two stamps are known: most sensors turn at 10 Hz
-constexpr std::int64_t kShortestStepNs = 1'000'000;      // no sensor turns a thousand times a second
-constexpr std::int64_t kLongestStepNs = 10'000'000'000;  // after it nothing of the motion before counts
+constexpr std::int64_t kFirstPeriodNs = 100'000'000;     // until two stamps are known: most sensors spin at 10 Hz
+constexpr std::int64_t kShortestStepNs = 1'000'000;      // no sensor spins at 1 kHz
+constexpr std::int64_t kLongestStepNs = 10'000'000'000;  // beyond it the motion before is irrelevant
 constexpr std::int64_t kLatestNs = std::numeric_limits<std::int64_t>::max() - kLongestStepNs;
 
 /// later − earlier; 0, which no step is, where that has no representation.

@@ -1,4 +1,4 @@
-// The odometry's own time: how long ago the sweep before was, whatever the stamps say.
+// The odometry's own time: steps between sweeps, also where stamps are wrong.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace rilo {
 
-/// The instant of a sweep.
+/// Time of a sweep.
 struct SweepTime {
   std::int64_t stamp_ns = 0;  ///< of the pose; increases from sweep to sweep
   std::int64_t step_ns = 0;   ///< time since the sweep before, > 0; 0 for the first

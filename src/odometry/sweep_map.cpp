@@ -1,32 +1,34 @@
 #include "odometry/sweep_map.hpp"
 
-#include "rilo/cloud/deskew.hpp"
+#include "cloud/deskew.hpp"
 
 namespace rilo {
 
-void SweepMap::begin(const TimedCloud& cloud, const MotionState& state, double scene_range_m, const RigidLever& lever) {
+void SweepMap::begin(const TimedCloud& cloud, const MotionState& state, double scene_range_m,
+                     const PoseDerivative& pose_by_elevation) {
   map_.clear();
   map_.set_scene_range(scene_range_m);
   sweeps_ = 0;
   first_cloud_ = cloud;
   T_odom_first_ = state.T_odom_lidar;
-  insert(cloud, state, lever);
+  insert(cloud, state, pose_by_elevation);
 }
 
-void SweepMap::insert(const TimedCloud& cloud, const MotionState& state, const RigidLever& lever) {
+void SweepMap::insert(const TimedCloud& cloud, const MotionState& state, const PoseDerivative& pose_by_elevation) {
   deskew(cloud, state.twist, points_);
   intensities_ = cloud.intensities;
-  map_.insert(points_, state.T_odom_lidar, lever);
+  map_.insert(points_, state.T_odom_lidar, pose_by_elevation);
   map_.evict(state.T_odom_lidar.translation());
   ++sweeps_;
 }
 
-LocalMap SweepMap::first_compensated(const Vector6d& twist, double scene_range_m, const RigidLever& lever) const {
+LocalMap SweepMap::first_compensated(const Vector6d& twist, double scene_range_m,
+                                     const PoseDerivative& pose_by_elevation) const {
   LocalMap map(config_);
   map.set_scene_range(scene_range_m);
   std::vector<Eigen::Vector3f> points;
   deskew(first_cloud_, twist, points);
-  map.insert(points, T_odom_first_, lever);
+  map.insert(points, T_odom_first_, pose_by_elevation);
   return map;
 }
 

@@ -6,14 +6,14 @@
 
 #include <Eigen/Core>
 
-#include "rilo/cloud/timed_cloud.hpp"
-#include "rilo/map/local_map.hpp"
-#include "rilo/registration/adaptive_icp.hpp"
+#include "cloud/timed_cloud.hpp"
+#include "map/local_map.hpp"
+#include "registration/adaptive_icp.hpp"
 
 namespace rilo {
 
-/// Local map with the number of its sweeps. Its first sweep goes in as if its velocity were known, which it is not:
-/// once the second one shows it, first_compensated() is the map as it should have begun.
+/// Local map with the number of its sweeps. The velocity of its first sweep is unknown and taken as given: once the
+/// second sweep shows it, first_compensated() is the map as it should have begun.
 class SweepMap {
  public:
   explicit SweepMap(const LocalMapConfig& config) : config_(config), map_(config) {}
@@ -25,14 +25,16 @@ class SweepMap {
   const std::vector<Eigen::Vector3f>& last_points() const { return points_; }
   const std::vector<float>& last_intensities() const { return intensities_; }
 
-  /// Drops what is there and begins with a sweep.
-  void begin(const TimedCloud& cloud, const MotionState& state, double scene_range_m, const RigidLever& lever);
-  void insert(const TimedCloud& cloud, const MotionState& state, const RigidLever& lever);
+  /// Drops the map and begins with a sweep.
+  void begin(const TimedCloud& cloud, const MotionState& state, double scene_range_m,
+             const PoseDerivative& pose_by_elevation);
+  void insert(const TimedCloud& cloud, const MotionState& state, const PoseDerivative& pose_by_elevation);
 
   /// Whether the only sweep so far carries the times that it takes to compensate it.
   bool first_can_be_compensated() const { return sweeps_ == 1 && first_cloud_.timed(); }
   /// The map of the first sweep alone, compensated for `twist`.
-  LocalMap first_compensated(const Vector6d& twist, double scene_range_m, const RigidLever& lever) const;
+  LocalMap first_compensated(const Vector6d& twist, double scene_range_m,
+                             const PoseDerivative& pose_by_elevation) const;
   void replace(LocalMap map) { map_ = std::move(map); }
 
   void clear();

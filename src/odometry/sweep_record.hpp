@@ -1,10 +1,11 @@
-// What the stages report, written into the statistics of a sweep.
+// Writes the reports of the stages into the statistics of a sweep.
 #pragma once
 
-#include "rilo/cloud/preprocess.hpp"
-#include "rilo/odometry/initial_pose.hpp"
+#include "calibration/sensor_calibration.hpp"
+#include "cloud/preprocess.hpp"
+#include "odometry/initial_pose.hpp"
+#include "registration/adaptive_icp.hpp"
 #include "rilo/odometry/sweep_result.hpp"
-#include "rilo/registration/adaptive_icp.hpp"
 
 namespace rilo {
 
@@ -12,5 +13,6 @@ void record(const SweepView& sweep, const PreparedSweep& prepared, SweepStats& s
 void record(const InitialPose& init, SweepStats& stats);
 /// After the record of the prepared sweep.
 void record(const IcpResult& icp, SweepStats& stats);
+void record(const SensorCalibration& calibration, SweepStats& stats);
 
 }  // namespace rilo

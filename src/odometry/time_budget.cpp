@@ -1,15 +1,15 @@
-#include "rilo/odometry/time_budget.hpp"
+#include "odometry/time_budget.hpp"
 
 #include <algorithm>
 
 namespace rilo {
 
 namespace {
-constexpr double kTarget = 0.8;      // of the budget: sweeps differ
-constexpr double kLargestCut = 0.5;  // of the points, from one sweep to the next
-constexpr double kRecovery = 1.05;   // the share grows by so much a sweep while there is time to spare
+constexpr double kTarget = 0.8;      // of the budget: sweeps differ by about a fifth
+constexpr double kLargestCut = 0.5;  // of the points, from one sweep to the next: one slow sweep is no trend
+constexpr double kRecovery = 1.05;   // growth of the share per sweep while there is time to spare
 constexpr double kSpare = 0.7;       // of the budget: below it there is
-constexpr double kSmoothing = 0.2;
+constexpr double kSmoothing = 0.2;   // of the usual times: about five sweeps
 }  // namespace
 
 bool TimeBudget::coarse_fits(double elapsed_ms) const {

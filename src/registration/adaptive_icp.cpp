@@ -1,4 +1,4 @@
-#include "rilo/registration/adaptive_icp.hpp"
+#include "registration/adaptive_icp.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,17 +9,19 @@ namespace rilo {
 
 namespace {
 
-constexpr std::size_t kLeastCorrespondences = 10;
+constexpr std::size_t kLeastCorrespondences = 10;  // of six unknowns, with something to spare
 // Below this many points a stride saves nothing and loses accuracy.
 constexpr std::size_t kLeastForStride = 4000;
-// Information on a direction counts beyond so many times what errors of the normals alone would show there.
+// The information on a direction counts beyond this multiple of what errors of the normals alone would show there
+// (experiment: weak directions).
 constexpr double kNoiseMargin = 1.5;
-// The strided cloud is weighted with so many sigma_th: a sweep off by more than the weights bear stays where it is.
+// The strided cloud is weighted with this multiple of sigma_th: a sweep off by more than the scale of the weights would
+// stay where it is.
 constexpr double kWideStart = 3.0;
 // The strided cloud need not converge as far as the whole one: what is left is below the noise of its sample.
 constexpr double kCoarseTolerance = 10.0;
-// From this iteration on, which 95 % of the sweeps of a drive do without, points keep what they met: a few that change
-// planes at every step would keep the sweep swinging.
+// From this iteration on, which 95 % of the sweeps of a drive do not need, points keep their correspondences: a few
+// that change planes at every step would keep the sweep oscillating.
 constexpr int kFreezeAfter = 16;
 
 Vector12d prior_error(const MotionPrior& prior, const MotionState& state) {
@@ -48,7 +50,7 @@ MotionState perturbed(const MotionState& state, const Vector12d& delta) {
 
 namespace {
 
-/// One Gauss-Newton step with damping; false when the system says nothing.
+/// One Gauss-Newton step with damping; false if the system is singular.
 bool step(const NormalEquations& sums, const Matrix6d& normal_noise, const MotionPrior& prior,
           const AdaptiveIcpConfig& config, double information_scale, IcpResult& result, Vector12d& delta) {
   const double variance = sums.squared_error / sums.weight;
@@ -104,7 +106,7 @@ class Acceleration {
   }
 
  private:
-  static constexpr double kMost = 4.0;
+  static constexpr double kMost = 4.0;  // steps; farther the secant is an extrapolation
   bool known_ = false;
   Vector12d update_ = Vector12d::Zero();
   Vector12d move_ = Vector12d::Zero();

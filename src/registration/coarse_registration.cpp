@@ -1,4 +1,4 @@
-#include "rilo/registration/coarse_registration.hpp"
+#include "registration/coarse_registration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,15 +6,16 @@
 #include <Eigen/Cholesky>
 
 #include "cloud/fixed_chunks.hpp"
-#include "rilo/registration/covariances.hpp"
-#include "rilo/registration/density_filter.hpp"
+#include "registration/covariances.hpp"
+#include "registration/density_filter.hpp"
 
 namespace rilo {
 
 namespace {
+// Converged below these: the fine registration does the rest.
 constexpr double kRotationEpsilonRad = 5e-4;
 constexpr double kTranslationEpsilonM = 5e-3;
-constexpr std::size_t kLeastPairs = 20;
+constexpr std::size_t kLeastPairs = 20;  // fewer overlap by chance
 // Sparse clouds: most of a search among smaller cells would be looking into empty ones.
 constexpr double kCellVoxels = 4.0;
 }  // namespace
@@ -47,7 +48,7 @@ CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& t
         continue;
       }
       const Eigen::Vector3d e = target.grid.points()[n.index].cast<double>() - p;  // e_m = q_n − p'_m
-      // M_m = C_m + C_n, the source's covariance turned into the target's frame (eq. 5), and the noise floor.
+      // M_m = C_m + C_n, the source's covariance rotated into the target's frame (eq. 5), and the noise floor.
       const Eigen::Matrix3d M =
           R * source.covariances[m].cast<double>() * R.transpose() + target.covariances[n.index].cast<double>() + noise;
       const Eigen::Matrix3d Mi = M.inverse();

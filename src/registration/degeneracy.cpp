@@ -1,4 +1,4 @@
-#include "rilo/registration/degeneracy.hpp"
+#include "registration/degeneracy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +19,9 @@ PoseDegeneracy analyse_degeneracy(const Matrix6d& H, const Matrix6d& noise) {
   if (!(translation > 0.0) || !(rotation > 0.0) || !H.allFinite()) {
     return result;
   }
-  result.lever_m = std::sqrt(rotation / translation);
+  result.lever_arm_m = std::sqrt(rotation / translation);
   Vector6d scale = Vector6d::Ones();
-  scale.head<3>().setConstant(1.0 / result.lever_m);
+  scale.head<3>().setConstant(1.0 / result.lever_arm_m);
   const Matrix6d scaled = scale.asDiagonal() * (H - noise) * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scaled);
   const double largest = solver.eigenvalues()[5];
@@ -43,7 +43,7 @@ Matrix6d soft_selection(const PoseDegeneracy& degeneracy, double threshold) {
   // W is applied from both sides, so that it carries the square root of the share.
   const Vector6d share = (power / (power + std::pow(half, 4))).sqrt();
   Vector6d scale = Vector6d::Ones();
-  scale.head<3>().setConstant(degeneracy.lever_m);
+  scale.head<3>().setConstant(degeneracy.lever_arm_m);
   const Matrix6d& V = degeneracy.directions;
   // V S Vᵀ acts on perturbations in metres; the scales carry it to radians and metres.
   const Matrix6d W = V * share.asDiagonal() * V.transpose();

@@ -1,4 +1,4 @@
-#include "rilo/registration/density_filter.hpp"
+#include "registration/density_filter.hpp"
 
 #include <algorithm>
 #include <cmath>

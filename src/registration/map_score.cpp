@@ -1,4 +1,4 @@
-#include "rilo/registration/map_score.hpp"
+#include "registration/map_score.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ struct Candidate {
   double score = 0;
 };
 
-// A few points rule out most of the nodes; the rest is looked at again with more points, and so on.
+// A few points rule out most of the nodes; the others are scored again with more points, and so on.
 constexpr std::size_t kFirstPoints = 75;
 constexpr std::size_t kMostPoints = 5000;
 constexpr std::size_t kMorePoints = 4;       // times as many from round to round ...

@@ -1,4 +1,4 @@
-#include "rilo/registration/normal_equations.hpp"
+#include "registration/normal_equations.hpp"
 
 namespace rilo {
 

@@ -1,4 +1,4 @@
-// Residuals of a registered sweep against the planes of the map, for all that learns from them.
+// Residuals of a registered sweep against the planes of the map.
 #pragma once
 
 #include <cmath>
@@ -7,14 +7,14 @@
 
 #include <Eigen/Core>
 
+#include "cloud/deskew.hpp"
 #include "cloud/fixed_chunks.hpp"
-#include "rilo/cloud/deskew.hpp"
-#include "rilo/map/local_map.hpp"
-#include "rilo/registration/adaptive_icp.hpp"
+#include "map/local_map.hpp"
+#include "registration/adaptive_icp.hpp"
 
 namespace rilo {
 
-/// A point and the surface element that it meets.
+/// A point and its surface element.
 struct PlaneResidual {
   std::size_t index = 0;   ///< of the point in the sweep
   Eigen::Vector3f sensor;  ///< the point, motion-compensated (m, sensor frame)
@@ -25,25 +25,25 @@ struct PlaneResidual {
   double weight = 0;      ///< β_k and the plane's, as in the registration
 };
 
-/// How a sweep was registered, and which of its points are looked at.
-struct RegisteredSweep {
+/// A registered sweep, and which of its points are used.
+struct RegisteredSource {
   const TimedCloud& source;
   const MotionState& state;
   double sigma_th_m = 0;  ///< scale of the weights
-  double gate_m = 0;      ///< larger residuals are left out
+  double gate_m = 0;      ///< larger residuals are skipped
   std::size_t stride = 1;
 
-  std::size_t looked_at() const { return (source.size() + stride - 1) / stride; }
+  std::size_t used() const { return (source.size() + stride - 1) / stride; }
 };
 
-/// Calls use(chunk, residual) for each point that meets a plane; chunks as those of for_fixed_chunks over looked_at().
+/// Calls use(chunk, residual) for each point with a plane; chunks as those of for_fixed_chunks over used().
 template <typename Use>
-void for_each_residual(const RegisteredSweep& sweep, const LocalMap& map, const Use& use) {
+void for_each_residual(const RegisteredSource& sweep, const LocalMap& map, const Use& use) {
   const Eigen::Matrix3d R = sweep.state.T_odom_lidar.linear();
   const Eigen::Vector3d t = sweep.state.T_odom_lidar.translation();
   const double sigma2 = sweep.sigma_th_m * sweep.sigma_th_m;
   const SweepMotion motion = SweepMotion::during(sweep.source, sweep.state.twist);
-  for_fixed_chunks(sweep.looked_at(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+  for_fixed_chunks(sweep.used(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     const auto point_at = [&](std::size_t k) { return motion.compensated(sweep.source, k * sweep.stride); };
     const auto world_at = [&](std::size_t k) -> Eigen::Vector3d { return R * point_at(k).template cast<double>() + t; };
     map.visit(begin, end, world_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
@@ -59,8 +59,8 @@ void for_each_residual(const RegisteredSweep& sweep, const LocalMap& map, const 
 
 /// Sum of what add(sum, residual) adds up, the same bits for any number of threads.
 template <typename Sum, typename Add>
-Sum sum_of_residuals(const RegisteredSweep& sweep, const LocalMap& map, const Add& add) {
-  std::vector<Sum> partial(chunk_count(sweep.looked_at()));
+Sum sum_of_residuals(const RegisteredSource& sweep, const LocalMap& map, const Add& add) {
+  std::vector<Sum> partial(chunk_count(sweep.used()));
   for_each_residual(sweep, map,
                     [&](std::size_t chunk, const PlaneResidual& residual) { add(partial[chunk], residual); });
   Sum total;

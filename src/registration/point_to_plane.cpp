@@ -2,15 +2,15 @@
 #include <array>
 #include <cmath>
 
+#include "cloud/deskew.hpp"
 #include "cloud/fixed_chunks.hpp"
-#include "rilo/cloud/deskew.hpp"
-#include "rilo/registration/adaptive_icp.hpp"
+#include "registration/adaptive_icp.hpp"
 
 namespace rilo {
 
 namespace {
 
-constexpr std::size_t kNoiseStride = 8;  // a sample of the points tells the noise of the normals
+constexpr std::size_t kNoiseStride = 8;  // a sample of the points suffices for the noise of the normals
 
 /// Weights residuals and adds them to normal equations, all at one state.
 class Equations {
@@ -40,7 +40,7 @@ class Equations {
     return beta;
   }
 
-  /// Points that are no plane: their Gaussian, with the noise of the point.
+  /// Points that are not a plane: their Gaussian, with the noise of the point.
   void add(std::size_t i, const Eigen::Vector3d& world, const MapScatter& scatter) {
     const Eigen::Vector3d e = scatter.axes.transpose() * (world - scatter.mean);
     Eigen::Vector3d beta;

@@ -1,4 +1,4 @@
-#include "rilo/registration/uneven_motion.hpp"
+#include "registration/uneven_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@ namespace rilo {
 
 namespace {
 
-constexpr std::size_t kStretches = 8;
-// A stretch sees a sector of the surroundings: what it does not see stays where the registration has it. So far may a
-// hand or a road throw the sensor off within a sweep.
+constexpr std::size_t kStretches = 8;  // short against a tremor of the hand, long enough to be registered
+// A stretch sees a sector of the surroundings: unobserved directions stay at the registered pose. Upper bound of the
+// deviation within a sweep, by a hand or a road.
 constexpr double kLargestShiftM = 0.03;
 constexpr double kLargestTurnRad = 0.01;
 
@@ -61,7 +61,7 @@ Vector6d uneven_motion(const TimedCloud& source, const LocalMap& map, const IcpR
   }
   const Eigen::Matrix3d to_sensor = icp.state.T_odom_lidar.linear().transpose();
   const Eigen::Vector3d t = icp.state.T_odom_lidar.translation();
-  const RegisteredSweep sweep{source, icp.state, sigma_th_m, config.gate * sigma_th_m, stride};
+  const RegisteredSource sweep{source, icp.state, sigma_th_m, config.gate * sigma_th_m, stride};
   const auto stretches = sum_of_residuals<Stretches>(sweep, map, [&](Stretches& sums, const PlaneResidual& residual) {
     Vector6d J;  // of the sensor's own axes
     const Eigen::Vector3d normal = to_sensor * residual.plane.normal;

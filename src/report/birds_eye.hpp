@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "png.hpp"
-#include "rilo/report/run_report.hpp"
+#include "report/run_report.hpp"
 
 namespace rilo {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "rilo/report/run_report.hpp"
+#include "report/run_report.hpp"
 
 namespace rilo {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "rilo/report/experiment_report.hpp"
-#include "rilo/report/run_report.hpp"
+#include "report/experiment_report.hpp"
+#include "report/run_report.hpp"
 
 namespace rilo {
 

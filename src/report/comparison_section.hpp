@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rilo/report/run_report.hpp"
+#include "report/run_report.hpp"
 
 namespace rilo {
 

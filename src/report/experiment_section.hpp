@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "rilo/report/experiment_report.hpp"
+#include "report/experiment_report.hpp"
 
 namespace rilo {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rilo/report/experiment_report.hpp"
+#include "report/experiment_report.hpp"
 
 namespace rilo {
 

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "evaluation/percentile.hpp"
 #include "html_text.hpp"
 #include "rilo/evaluation/alignment.hpp"
-#include "rilo/evaluation/percentile.hpp"
 
 namespace rilo {
 

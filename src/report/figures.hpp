@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "rilo/report/run_report.hpp"
+#include "report/run_report.hpp"
 
 namespace rilo {
 

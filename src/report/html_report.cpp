@@ -1,4 +1,4 @@
-#include "rilo/report/html_report.hpp"
+#include "report/html_report.hpp"
 
 #include <ostream>
 #include <stdexcept>

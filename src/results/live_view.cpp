@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "console/text.hpp"
-#include "rilo/io/ground_truth.hpp"
+#include "io/ground_truth.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/session/run_error.hpp"
 

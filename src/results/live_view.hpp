@@ -10,7 +10,7 @@
 
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/odometry/odometry_config.hpp"
-#include "rilo/view/viewer.hpp"
+#include "view/viewer.hpp"
 
 namespace rilo {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "rilo/evaluation/association.hpp"
-#include "rilo/io/ground_truth.hpp"
+#include "evaluation/association.hpp"
+#include "io/ground_truth.hpp"
 
 namespace rilo {
 

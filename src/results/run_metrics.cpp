@@ -7,8 +7,8 @@
 
 #include "console/text.hpp"
 #include "console/version.hpp"
-#include "rilo/evaluation/percentile.hpp"
-#include "rilo/geometry/degrees.hpp"
+#include "evaluation/percentile.hpp"
+#include "geometry/degrees.hpp"
 
 namespace rilo {
 

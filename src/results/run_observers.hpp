@@ -11,7 +11,7 @@
 #include "results/run_record.hpp"
 #include "results/run_request.hpp"
 #include "rilo/session/session.hpp"
-#include "rilo/view/budgeted_map.hpp"
+#include "view/budgeted_map.hpp"
 
 namespace rilo {
 

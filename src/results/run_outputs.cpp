@@ -4,16 +4,16 @@
 #include <system_error>
 
 #include "console/text.hpp"
+#include "io/atomic_file.hpp"
+#include "report/html_report.hpp"
 #include "results/metrics_json.hpp"
 #include "results/run_report.hpp"
 #include "results/sweep_table.hpp"
 #include "rilo/config/config_file.hpp"
-#include "rilo/io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/map_writer.hpp"
 #include "rilo/io/pose_writer.hpp"
 #include "rilo/io/trajectory_recording.hpp"
-#include "rilo/report/html_report.hpp"
 
 namespace rilo {
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "console/failure.hpp"
-#include "rilo/cloud/map_cloud.hpp"
+#include "rilo/cloud/thinned_map.hpp"
 #include "rilo/evaluation/evaluation.hpp"
 #include "rilo/session/session.hpp"
 

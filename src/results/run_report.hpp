@@ -1,9 +1,9 @@
 // The HTML report of a run.
 #pragma once
 
+#include "report/run_report.hpp"
 #include "results/metrics.hpp"
 #include "results/run_record.hpp"
-#include "rilo/report/run_report.hpp"
 
 namespace rilo {
 

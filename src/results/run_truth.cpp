@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "console/text.hpp"
+#include "io/ground_truth.hpp"
 #include "results/pose_files.hpp"
-#include "rilo/io/ground_truth.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/pose_reader.hpp"
 

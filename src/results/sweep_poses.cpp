@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "rilo/cloud/deskew.hpp"
+#include "cloud/deskew.hpp"
 #include "rilo/session/run_error.hpp"
 
 namespace rilo {

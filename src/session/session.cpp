@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "rilo/geometry/degrees.hpp"
+#include "geometry/degrees.hpp"
 #include "rilo/io/point_times.hpp"
-#include "rilo/session/steady_clock.hpp"
 #include "session/process_memory.hpp"
+#include "session/steady_clock.hpp"
 
 namespace rilo {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "rilo/simulation/drive_path.hpp"
+#include "simulation/drive_path.hpp"
 
 namespace rilo::simulation {
 

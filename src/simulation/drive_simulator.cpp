@@ -9,8 +9,9 @@
 #include <tbb/task_arena.h>
 
 #include "cloud/fixed_chunks.hpp"
-#include "rilo/geometry/degrees.hpp"
+#include "geometry/degrees.hpp"
 #include "simulation/counter_random.hpp"
+#include "simulation/drive_path.hpp"
 #include "simulation/town.hpp"
 #include "simulation/traffic.hpp"
 #include "simulation/vehicle.hpp"

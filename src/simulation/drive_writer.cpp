@@ -1,4 +1,4 @@
-#include "rilo/simulation/drive_writer.hpp"
+#include "simulation/drive_writer.hpp"
 
 #include <array>
 #include <cerrno>
@@ -14,7 +14,7 @@
 #include <system_error>
 #include <vector>
 
-#include "rilo/io/atomic_file.hpp"
+#include "io/atomic_file.hpp"
 #include "rilo/io/pose_writer.hpp"
 
 namespace rilo {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "rilo/geometry/degrees.hpp"
+#include "geometry/degrees.hpp"
 
 namespace rilo {
 namespace {

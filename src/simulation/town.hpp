@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rilo/simulation/drive_path.hpp"
+#include "simulation/drive_path.hpp"
 #include "simulation/ground.hpp"
 #include "simulation/solid.hpp"
 #include "simulation/solid_grid.hpp"

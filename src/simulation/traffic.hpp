@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "rilo/simulation/drive_path.hpp"
 #include "simulation/car_body.hpp"
+#include "simulation/drive_path.hpp"
 #include "simulation/ray.hpp"
 #include "simulation/terrain.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "rilo/geometry/se3.hpp"
-#include "rilo/simulation/drive_path.hpp"
+#include "simulation/drive_path.hpp"
 #include "simulation/terrain.hpp"
 
 namespace rilo::simulation {

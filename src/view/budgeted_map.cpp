@@ -1,10 +1,10 @@
-#include "rilo/view/budgeted_map.hpp"
+#include "view/budgeted_map.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include "rilo/geometry/voxel_key.hpp"
+#include "geometry/voxel_key.hpp"
 
 namespace rilo {
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "rilo/view/budgeted_map.hpp"
-#include "rilo/view/view_sweep.hpp"
 #include "sweep_points.hpp"
+#include "view/budgeted_map.hpp"
+#include "view/view_sweep.hpp"
 
 namespace rilo::view {
 

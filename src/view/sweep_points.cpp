@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "rilo/cloud/deskew.hpp"
+#include "cloud/deskew.hpp"
 
 namespace rilo::view {
 

@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "rilo/map/plane_grid.hpp"
+#include "map/plane_grid.hpp"
 #include "rilo/odometry/sweep_result.hpp"
-#include "rilo/view/view_sweep.hpp"
+#include "view/view_sweep.hpp"
 
 namespace rilo::view {
 

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "frames.hpp"
-#include "rilo/view/budgeted_map.hpp"
-#include "rilo/view/viewer.hpp"
 #include "sweep_points.hpp"
+#include "view/budgeted_map.hpp"
+#include "view/viewer.hpp"
 
 namespace rilo::view {
 

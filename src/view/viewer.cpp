@@ -1,4 +1,4 @@
-#include "rilo/view/viewer.hpp"
+#include "view/viewer.hpp"
 
 #include <condition_variable>
 #include <mutex>

@@ -1,6 +1,6 @@
 // This build has no viewer.
 #include "rilo/io/io_error.hpp"
-#include "rilo/view/viewer.hpp"
+#include "view/viewer.hpp"
 
 namespace rilo {
 

@@ -1,5 +1,5 @@
 // Plans of a benchmark: what they say, and whatever the bytes, read or refused with a ConfigError.
-#include "rilo/config/bench_plan.hpp"
+#include "config/bench_plan.hpp"
 
 #include <filesystem>
 #include <random>

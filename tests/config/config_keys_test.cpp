@@ -1,4 +1,6 @@
 // Every field is a key, and every key reaches its own field.
+#include "config/config_keys.hpp"
+
 #include <map>
 #include <set>
 #include <string>
@@ -8,7 +10,6 @@
 
 #include "config/field_count.hpp"
 #include "rilo/config/config_file.hpp"
-#include "rilo/config/odometry_keys.hpp"
 
 namespace rilo {
 namespace {

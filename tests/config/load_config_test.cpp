@@ -52,6 +52,27 @@ TEST(LoadConfig, a_part_of_the_keys_changes_that_part_of_the_base) {
 
 TEST(LoadConfig, dotted_keys_are_keys) { EXPECT_EQ(parse_config("icp.gate: 4", "dotted").icp.gate, 4.0); }
 
+TEST(LoadConfig, expert_keys_are_taken_with_and_without_their_heading) {
+  const OdometryConfig config =
+      parse_config("icp: {noise_m: 0.03}\nexpert:\n  icp: {gate: 4}\n  map: {levels: 3}\n", "expert");
+  EXPECT_EQ(config.icp.gate, 4.0);
+  EXPECT_EQ(config.icp.noise_m, 0.03);
+  EXPECT_EQ(config.map.levels, 3);
+  EXPECT_EQ(with_overrides({}, {"expert.icp.gate=5"}).icp.gate, 5.0);
+  EXPECT_THAT(config_message("icp: {gate: 2}\nexpert: {icp: {gate: 3}}"), HasSubstr("icp.gate is given a second time"));
+  EXPECT_THAT(config_message("expert: {icp: {gat: 3}}"), HasSubstr("Did you mean icp.gate?"));
+  EXPECT_THAT(config_message("expert: {expert: {icp: {gate: 3}}}"), HasSubstr("unknown key"));
+  EXPECT_THAT(config_message("expert: 3"), HasSubstr("a map of keys"));
+}
+
+TEST(LoadConfig, a_dump_shows_the_keys_of_users_before_the_expert_ones) {
+  const std::string text = dump_config({});
+  const std::size_t expert = text.find("\nexpert:\n");
+  ASSERT_NE(expert, std::string::npos);
+  EXPECT_LT(text.find("max_range_m:"), expert);
+  EXPECT_GT(text.find("    gate:"), expert);
+}
+
 TEST(LoadConfig, a_dump_loads_as_exactly_the_same_numbers) {
   OdometryConfig config;
   config.icp.damping = 1e-9 / 3;

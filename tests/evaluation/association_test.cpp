@@ -1,4 +1,4 @@
-#include "rilo/evaluation/association.hpp"
+#include "evaluation/association.hpp"
 
 #include <limits>
 #include <stdexcept>

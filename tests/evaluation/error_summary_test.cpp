@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rilo/evaluation/percentile.hpp"
+#include "evaluation/percentile.hpp"
 
 namespace rilo {
 namespace {

@@ -1,5 +1,5 @@
 // Ratios, means and the sign test, against values by hand.
-#include "rilo/evaluation/paired_comparison.hpp"
+#include "evaluation/paired_comparison.hpp"
 
 #include <limits>
 

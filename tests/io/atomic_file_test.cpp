@@ -1,4 +1,4 @@
-#include "rilo/io/atomic_file.hpp"
+#include "io/atomic_file.hpp"
 
 #include <csignal>
 #include <fcntl.h>

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "io/io_test_util.hpp"
+#include "io/sweep_writer.hpp"
 #include "rilo/io/cloud_reader.hpp"
-#include "rilo/io/sweep_writer.hpp"
 
 namespace rilo {
 namespace {

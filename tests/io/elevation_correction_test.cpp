@@ -1,4 +1,4 @@
-#include "rilo/io/elevation_correction.hpp"
+#include "io/elevation_correction.hpp"
 
 #include <cmath>
 #include <limits>

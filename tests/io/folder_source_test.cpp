@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "io/io_test_util.hpp"
+#include "io/sweep_writer.hpp"
 #include "rilo/io/scan_source.hpp"
-#include "rilo/io/sweep_writer.hpp"
 
 namespace rilo {
 namespace {

@@ -1,4 +1,4 @@
-#include "rilo/io/ground_truth.hpp"
+#include "io/ground_truth.hpp"
 
 #include "io/io_test_util.hpp"
 

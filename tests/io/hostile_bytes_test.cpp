@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "io/io_test_util.hpp"
+#include "io/sweep_writer.hpp"
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/pose_reader.hpp"
-#include "rilo/io/sweep_writer.hpp"
 
 namespace rilo {
 namespace {

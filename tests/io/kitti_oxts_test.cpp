@@ -7,9 +7,9 @@
 #include <numbers>
 #include <sstream>
 
+#include "io/ground_truth.hpp"
 #include "io/io_test_util.hpp"
 #include "rilo/geometry/se3.hpp"
-#include "rilo/io/ground_truth.hpp"
 #include "rilo/io/pose_reader.hpp"
 
 namespace rilo {

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "io/ground_truth.hpp"
 #include "io/io_test_util.hpp"
-#include "rilo/io/ground_truth.hpp"
+#include "io/sweep_writer.hpp"
 #include "rilo/io/pose_writer.hpp"
 #include "rilo/io/scan_source.hpp"
-#include "rilo/io/sweep_writer.hpp"
 
 namespace rilo {
 namespace {

@@ -1,5 +1,5 @@
 // III-C by hand.
-#include "rilo/odometry/adaptive_threshold.hpp"
+#include "odometry/adaptive_threshold.hpp"
 
 #include <cmath>
 

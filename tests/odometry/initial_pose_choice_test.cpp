@@ -1,8 +1,8 @@
 // III-B by hand: prediction or coarse result.
 #include <gtest/gtest.h>
 
-#include "rilo/odometry/initial_pose.hpp"
-#include "rilo/simulation/test_scenes.hpp"
+#include "odometry/initial_pose.hpp"
+#include "simulation/test_scenes.hpp"
 
 namespace rilo {
 namespace {

@@ -1,7 +1,7 @@
 // What is vouched for and what is not.
 #include <gtest/gtest.h>
 
-#include "rilo/odometry/health.hpp"
+#include "odometry/health.hpp"
 
 namespace rilo {
 namespace {

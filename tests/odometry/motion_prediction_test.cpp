@@ -1,5 +1,5 @@
 // III-B by hand: increments, their weights, the predicted pose.
-#include "rilo/odometry/motion_prediction.hpp"
+#include "odometry/motion_prediction.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The prior by hand: a random walk of the velocity.
-#include "rilo/odometry/motion_prior.hpp"
+#include "odometry/motion_prior.hpp"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "rilo/report/html_report.hpp"
+#include "report/html_report.hpp"
 
 namespace rilo::test {
 

@@ -8,7 +8,7 @@
 #include "rilo/io/pose_writer.hpp"
 #include "rilo/io/trajectory_recording.hpp"
 #include "rilo/session/session.hpp"
-#include "rilo/simulation/drive_writer.hpp"
+#include "simulation/drive_writer.hpp"
 
 namespace rilo::test {
 namespace {
@@ -49,7 +49,8 @@ TEST(SameAsCommand, OnASimulatedDrive) {
 
 TEST(SameAsCommand, OnKittiRaw0001) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "four passes over real sweeps take sanitizers a quarter of an hour; the simulated drive runs the same code";
+  GTEST_SKIP()
+      << "four passes over real sweeps take sanitizers a quarter of an hour; the simulated drive runs the same code";
 #endif
   const char* told = std::getenv("RILO_SHARED");
   const fs::path shared = told != nullptr ? fs::path(told) : fs::path(RILO_SOURCE_DIR).parent_path() / "shared";

@@ -1,4 +1,4 @@
-#include "rilo/simulation/drive_path.hpp"
+#include "simulation/drive_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/drive_path.hpp"
+
 namespace rilo {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "rilo/simulation/drive_writer.hpp"
+#include "simulation/drive_writer.hpp"
 
 #include <cstdlib>
 #include <cstring>
@@ -11,6 +11,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "simulation/drive_path.hpp"
 
 namespace rilo {
 namespace {

@@ -1,4 +1,4 @@
-#include "rilo/simulation/test_scenes.hpp"
+#include "simulation/test_scenes.hpp"
 
 #include <algorithm>
 #include <cmath>

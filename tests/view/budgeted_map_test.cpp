@@ -1,4 +1,4 @@
-#include "rilo/view/budgeted_map.hpp"
+#include "view/budgeted_map.hpp"
 
 #include <limits>
 #include <set>

@@ -9,20 +9,20 @@
 
 namespace rilo {
 
-/// One sweep of a LiDAR. Points are in the sensor frame (x forward, y left, z up, metres), each at its own instant.
+/// One sweep of a LiDAR. Points are in the sensor frame (x forward, y left, z up, metres), each at its own time.
 /// The optional columns are empty or as long as `points`. NaN points are allowed and are dropped by the odometry.
 struct Sweep {
-  std::int64_t stamp_ns = 0;            ///< the instant that `times_s` counts from
+  std::int64_t stamp_ns = 0;            ///< the time that `times_s` counts from
   std::vector<Eigen::Vector3f> points;  ///< m
   std::vector<float> times_s;           ///< s relative to stamp_ns; empty: no times, or already motion-compensated
   std::vector<float> intensities;       ///< sensor units
   std::vector<std::uint16_t> rings;     ///< beam index
 };
 
-/// A sweep that lies somewhere else, in the memory of a driver or of numpy: nothing is copied. Columns as in Sweep.
+/// A sweep in memory of another owner, a driver or numpy: nothing is copied. Columns as in Sweep.
 struct SweepView {
   SweepView() = default;
-  SweepView(const Sweep& sweep)  // NOLINT(google-explicit-constructor): a sweep is taken wherever a view is
+  SweepView(const Sweep& sweep)  // NOLINT(google-explicit-constructor): a sweep converts to a view
       : stamp_ns(sweep.stamp_ns),
         points(sweep.points),
         times_s(sweep.times_s),

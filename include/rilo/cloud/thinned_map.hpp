@@ -7,10 +7,16 @@
 
 #include <Eigen/Core>
 
-#include "rilo/cloud/map_cloud.hpp"
 #include "rilo/geometry/se3.hpp"
 
 namespace rilo {
+
+/// Points in the odometry frame (m). The other columns are empty or as long as `points`.
+struct MapCloud {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> normals;  ///< unit, on the side the surface was seen from; zero where there is none
+  std::vector<float> intensities;        ///< sensor units
+};
 
 /// Collects points of many sweeps and keeps the first one of every voxel. Memory grows with the area seen, not with
 /// time.

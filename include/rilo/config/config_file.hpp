@@ -6,17 +6,23 @@
 #include <string_view>
 #include <vector>
 
-#include "rilo/config/config_error.hpp"
+#include "rilo/io/io_error.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 
 namespace rilo {
 
-/// The configuration `base` with what `file` says on top. A file may hold any part of the keys.
+/// An IoError of its own kind, since a wrong configuration is the user's to put right, not the data's.
+class ConfigError : public IoError {
+ public:
+  explicit ConfigError(IoProblem problem) : IoError(std::move(problem)) {}
+};
+
+/// The configuration `base`, overridden by `file`, which may hold any part of the keys.
 /// @throws ConfigError with line and column: no YAML, unknown or repeated key (the nearest known one is named), wrong
 /// type, out of range, values that contradict each other.
 OdometryConfig load_config(const std::filesystem::path& file, const OdometryConfig& base = {});
 
-/// The same from text; `name` stands for the file in messages.
+/// The same from text; `name` is the file's name in messages.
 OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base = {});
 
 /// Applies "key=value" in turn, e.g. "icp.max_iterations=20"; values that contradict each other are found at the end.

@@ -1,12 +1,10 @@
-// Everything we say about a trajectory whose truth is known.
+// All errors of a trajectory against a ground truth.
 #pragma once
 
 #include <vector>
 
-#include "rilo/evaluation/ape.hpp"
-#include "rilo/evaluation/error_series.hpp"
 #include "rilo/evaluation/kitti_error.hpp"
-#include "rilo/evaluation/rpe.hpp"
+#include "rilo/evaluation/pose_error.hpp"
 
 namespace rilo {
 
@@ -24,7 +22,7 @@ struct Evaluation {
   std::vector<ErrorSample> series;  ///< first poses made equal
 };
 
-/// Evaluates `estimate` against `truth`: same length, same instants, poses of the same sensor.
+/// Evaluates `estimate` against `truth`: same length, same times, poses of the same sensor.
 /// @throws std::invalid_argument as check_trajectories.
 Evaluation evaluate(const std::vector<SE3>& truth, const std::vector<SE3>& estimate);
 

@@ -35,7 +35,7 @@ struct KittiError {
   std::optional<double> t_rel_pct() const;
   /// Mean over all segments (degrees per 100 m); empty when the sequence holds no segment.
   std::optional<double> r_rel_deg_100m() const;
-  /// Means per nominal length, ascending; lengths without a segment are left out.
+  /// Means per nominal length, ascending; lengths without a segment are skipped.
   std::vector<KittiLengthError> per_length() const;
 };
 

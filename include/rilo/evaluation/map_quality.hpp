@@ -1,4 +1,4 @@
-// How crisp is the map that a trajectory builds? A figure that needs no ground truth.
+// How sharp is the map that a trajectory builds? A figure that needs no ground truth.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,9 @@ namespace rilo {
 struct MapQualityConfig {
   std::size_t window_sweeps = 30;         ///< consecutive sweeps of one map; the next map begins half a window later
   std::size_t sweep_step = 3;             ///< sweeps 0, 3, 6 … of a window go into its map
-  double min_range_m = 3;                 ///< points nearer to the sensor are left out
+  double min_range_m = 3;                 ///< points nearer to the sensor are dropped
   double max_range_m = 40;                ///< and points farther away
-  double voxel_m = 0;                     ///< keeps one point of a sweep per voxel of this size; 0: all
+  double voxel_m = 0;                     ///< keeps one point per sweep and voxel of this size; 0: all
   std::size_t points_per_sweep = 40000;   ///< at most, chosen at random
   std::size_t samples_per_window = 3000;  ///< places that are looked at: points of the window's first sweep
   double radius_m = 0.3;                  ///< of the neighbourhood of such a place
@@ -31,7 +31,7 @@ struct MapQualityConfig {
   int threads = 0;                ///< 0: as many as the machine has; the result does not depend on it
 };
 
-/// Smaller is crisper. Differences below about 1 % are noise of the choice of places.
+/// Smaller is sharper. Differences below about 1 % are noise of the choice of places.
 struct MapQuality {
   std::size_t sweeps = 0;
   std::size_t windows = 0;
@@ -49,8 +49,8 @@ class MapQualityMeter {
   /// @throws std::invalid_argument when the configuration makes no sense.
   explicit MapQualityMeter(const MapQualityConfig& config);
 
-  /// Adds the next sweep: `points` in the sensor frame at the instant of the pose (m); those that are not finite are
-  /// left out. @throws std::invalid_argument when the pose is not finite.
+  /// Adds the next sweep: `points` in the sensor frame at the time of the pose (m); those that are not finite are
+  /// dropped. @throws std::invalid_argument when the pose is not finite.
   void add(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar);
 
   /// Of all windows that are complete.

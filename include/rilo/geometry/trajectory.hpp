@@ -8,7 +8,7 @@
 
 namespace rilo {
 
-/// Pose of the LiDAR in the odometry frame at one instant.
+/// Pose of the LiDAR in the odometry frame at one time.
 struct StampedPose {
   std::int64_t stamp_ns = 0;
   SE3 T_odom_lidar = SE3::Identity();

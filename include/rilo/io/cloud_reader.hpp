@@ -29,7 +29,7 @@ bool is_floating(ScalarType type);
 /// int8 … uint64, float32, float64.
 std::string_view to_string(ScalarType type);
 
-/// A time field as it stands in the file: integers in `integers`, floating point in `floats`; unit and reference are
+/// A time field as stored in the file: integers in `integers`, floating point in `floats`; unit and reference are
 /// PointTimeDecoder's business.
 struct RawTimes {
   std::string field;
@@ -49,7 +49,7 @@ struct RawCloud {
 };
 
 /// Records of float32. `fields`: see SourceOptions::bin_fields.
-/// @throws IoError when the size is no multiple of the record; std::invalid_argument when `fields` makes no sense.
+/// @throws IoError when the size is not a multiple of the record; std::invalid_argument when `fields` makes no sense.
 RawCloud read_bin(const std::filesystem::path& file, const std::string& fields = "x,y,z,intensity");
 
 /// PCD: ascii, binary, binary_compressed. `time_field`: see SourceOptions::time_field.

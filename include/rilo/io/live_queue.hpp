@@ -16,15 +16,15 @@ namespace rilo {
 struct LiveQueueOptions {
   std::string topic = "/points";  ///< for messages
   std::size_t limit = 2;          ///< messages that may wait: beyond it the oldest goes; 0: all wait
-  /// The first messages show the sweeps' period, as at the start of a recording (12 there): so many are held back, and
+  /// The first messages show the sweeps' period, as at the start of a recording (12 there): these are held back, and
   /// none of them is dropped. 0: none, the period is 1 / assumed_rate_hz.
   std::size_t look_ahead = 12;
-  double look_ahead_wait_s = 3;  ///< no message for so long ends the looking ahead
+  double look_ahead_wait_s = 3;  ///< a longer wait for a message ends the look-ahead
 };
 
 struct LiveQueueCounts {
   std::size_t received = 0;
-  std::size_t dropped = 0;  ///< for want of time
+  std::size_t dropped = 0;  ///< because the reader was too slow
   std::size_t waiting = 0;
 };
 

@@ -3,14 +3,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 
-#include "rilo/cloud/map_cloud.hpp"
-#include "rilo/io/atomic_file.hpp"
+#include "rilo/cloud/thinned_map.hpp"
 
 namespace rilo {
 
-/// What a map says of each point besides its place.
+class AtomicFile;
+
+/// Columns of a map besides the coordinates.
 struct MapColumns {
   bool normals = false;
   bool intensity = false;
@@ -22,6 +24,7 @@ class MapWriter {
  public:
   /// @throws IoError: unknown extension, folder not writable.
   explicit MapWriter(const std::filesystem::path& file, MapColumns columns = {});
+  ~MapWriter();
 
   /// Appends points (m). @throws std::invalid_argument when a column of the map is not as long as `points`, or one that
   /// the map has not is not empty.
@@ -37,7 +40,7 @@ class MapWriter {
 
   bool ply_;
   MapColumns columns_;
-  AtomicFile file_;
+  std::unique_ptr<AtomicFile> file_;
   std::uint64_t count_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The one place that decides what per-point times mean.
+// The one place that interprets per-point times.
 #pragma once
 
 #include <cstdint>
@@ -29,20 +29,20 @@ struct PointTimeHints {
   double assumed_period_s = 0.1;   ///< for fractions, when no stamps give it
 };
 
-/// Turns a field as it stands in the file into Sweep::times_s (and the stamp, when the times count from an epoch). The
-/// convention is inferred from name, type and span of the first sweep that tells, and kept.
+/// Converts a field as stored in the file into Sweep::times_s (and the stamp, when the times count from an epoch). The
+/// convention is inferred from name, type and span of the first sweep that decides, and kept.
 class PointTimeDecoder {
  public:
   explicit PointTimeDecoder(const PointTimeHints& hints) : hints_(hints) {}
 
   /// Fills sweep.times_s from `raw`, which is as long as sweep.points; sets sweep.stamp_ns to the earliest point when
-  /// the times count from an epoch. Points without a finite time become NaN. Points that are no measurement (NaN, or
+  /// the times count from an epoch. Points without a finite time become NaN. Points that are not a measurement (NaN, or
   /// exactly at the origin) take no part in the decision and get time 0. `file` is for messages.
   /// @throws IoError, with the numbers and the option to set, when the convention is ambiguous or a sweep contradicts
   /// it.
   void decode(const RawTimes& raw, const std::filesystem::path& file, Sweep& sweep);
 
-  /// What was decided; nothing before the first sweep that tells.
+  /// What was decided; nothing before the first sweep that decides.
   const std::optional<PointTimeConvention>& convention() const { return convention_; }
 
   /// For people: "field t (uint32), ns since the sweep's stamp"; empty before the decision.
@@ -54,8 +54,8 @@ class PointTimeDecoder {
   std::string description_;
 };
 
-/// Times of a spinning sensor that is stamped when it faces forward (azimuth 0): time = -azimuth / 2π · period for
-/// clockwise, seen from above, else +; within ± period / 2. NaN points get 0.
+/// Times of a spinning sensor that whose timestamp is that of the forward direction (azimuth 0): time = -azimuth / 2π ·
+/// period for clockwise, seen from above, else +; within ± period / 2. NaN points get 0.
 std::vector<float> azimuth_times(const std::vector<Eigen::Vector3f>& points, double period_s, SpinDirection direction);
 
 /// The stamp of a pose at the middle of a sweep: `middle_ns`, or the sweep's own stamp when they are at most a

@@ -16,7 +16,7 @@ namespace rilo {
 /// @throws IoError with line and column: not 12 finite numbers, or not a rigid transform (tolerance 1e-3).
 std::vector<SE3> read_kitti_poses(const std::filesystem::path& file);
 
-/// The same of a file that somebody may still be writing: a last line without its end is left out.
+/// The same for a file that may still be written to: a last line without its end is dropped.
 std::vector<SE3> read_growing_kitti_poses(const std::filesystem::path& file);
 
 /// TUM form: `t x y z qx qy qz qw` a line, t in seconds, read exactly to the nanosecond; the quaternion is normalised.

@@ -36,7 +36,7 @@ void write_stamps(const std::filesystem::path& file, const std::vector<std::int6
 std::string format_stamp(std::int64_t stamp_ns);
 
 /// Decimal seconds ("-1.5", "1.6e9", "1317042145.964") to ns without going through floating point; digits beyond the
-/// ninth decimal are rounded half away from zero. Nothing when the text is no number or does not fit.
+/// ninth decimal are rounded half away from zero. Nothing when the text is not a number or out of range.
 std::optional<std::int64_t> parse_stamp(std::string_view text);
 
 }  // namespace rilo

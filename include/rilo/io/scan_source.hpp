@@ -19,8 +19,8 @@ struct StampFaults {
   std::size_t gaps = 0;          ///< steps of more than 1.5 periods
   std::size_t missing = 0;       ///< sweeps that would have been in them
   double longest_gap_s = 0;      ///< 0: none
-  std::size_t duplicates = 0;    ///< left out: the same stamp and the same points as the one before
-  std::size_t out_of_order = 0;  ///< left out: older than a sweep before, by a second at most
+  std::size_t duplicates = 0;    ///< dropped: the same stamp and the same points as the one before
+  std::size_t out_of_order = 0;  ///< dropped: older than a sweep before, by a second at most
   std::size_t repeated = 0;      ///< kept: the stamp of the one before, other points
   std::size_t clock_jumps = 0;   ///< kept: older than a sweep before by more, the clock was set back
   std::size_t late = 0;          ///< kept: recorded more than a period later than the promptest one, see its stamp
@@ -54,7 +54,7 @@ class ScanSource {
   virtual ~ScanSource() = default;
 
   /// The next sweep, or nothing at the end.
-  /// @throws IoError when it cannot be read; the following call goes on with the sweep after it.
+  /// @throws IoError when it cannot be read; the following call continues with the next sweep.
   virtual std::optional<Sweep> next() = 0;
 
   /// Leaves out up to `count` sweeps without reading them; returns how many there were. Cheapest before the first

@@ -1,4 +1,4 @@
-// Everything that can be told to a scan source.
+// Options of scan sources.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ std::optional<PointTimes> parse_point_times(std::string_view text);
 
 /// Unit of a per-point time field.
 enum class PointTimeUnit : std::uint8_t {
-  kInfer,         ///< from the field's span; refused when ambiguous
+  kInfer,         ///< from the field's span; rejected when ambiguous
   kSeconds,       ///< s
   kMilliseconds,  ///< ms
   kMicroseconds,  ///< µs
@@ -34,7 +34,7 @@ std::optional<PointTimeUnit> parse_point_time_unit(std::string_view text);
 
 /// What a per-point time field counts from.
 enum class PointTimeReference : std::uint8_t {
-  kInfer,  ///< from the size of the values; refused when ambiguous
+  kInfer,  ///< from the size of the values; rejected when ambiguous
   kStamp,  ///< the sweep's stamp
   kEpoch,  ///< an epoch shared by all sweeps: the stamp is the time of the earliest point
 };
@@ -48,7 +48,7 @@ enum class SpinDirection : std::uint8_t { kClockwise, kCounterClockwise };
 std::string_view to_string(SpinDirection value);
 std::optional<SpinDirection> parse_spin_direction(std::string_view text);
 
-/// What happens at a sweep that cannot be read.
+/// Handling of a sweep that cannot be read.
 enum class OnBadSweep : std::uint8_t { kFail, kSkip };
 /// fail, skip.
 std::string_view to_string(OnBadSweep value);
@@ -60,7 +60,7 @@ struct SourceOptions {
   /// calibration of a Velodyne HDL-64E (YAML of the ROS driver velodyne_pointcloud).
   std::string sensor_file;
   /// Columns of a .bin record, one float32 each: x, y, z (needed), intensity, time, ring; `_` is ignored.
-  /// auto: x,y,z,intensity, and a ring behind where the sizes or names of the files say so (nuScenes).
+  /// auto: x,y,z,intensity, and a ring where the sizes or names of the files indicate one (nuScenes).
   std::string bin_fields = "auto";
   PointTimes point_times = PointTimes::kAuto;
   PointTimeUnit point_time_unit = PointTimeUnit::kInfer;

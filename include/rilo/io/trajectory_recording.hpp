@@ -21,7 +21,7 @@ struct RecordingNames {
 /// given the pose before about the axes of the odometry frame, velocity in the LiDAR frame and its covariance over the
 /// step from the pose before, see ros_twist_covariance()) and tf2_msgs/msg/TFMessage (odom_frame → lidar_frame), each
 /// at the time of the pose. Stamps before 1970 become 0 and those after 2038 the last that the messages know. Lost and
-/// empty sweeps are in it: their covariance says that they are guesses.
+/// empty sweeps are in it: their covariance marks them as guesses.
 /// @throws IoError when it cannot be written.
 void write_mcap(const std::filesystem::path& file, std::span<const SweepResult> results,
                 const RecordingNames& names = {});

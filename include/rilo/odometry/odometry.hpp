@@ -32,7 +32,7 @@ class Odometry {
 
   /// Registers one sweep (a Sweep or a view of one, which is not used after the call). Stamps must increase; a sweep
   /// whose stamp does not is registered as if one usual period had passed. Never throws on bad data: the status in the
-  /// result says what happened.
+  /// result reports it.
   SweepResult register_sweep(const SweepView& sweep);
 
   /// Poses so far, one per registered sweep.
@@ -41,7 +41,7 @@ class Odometry {
   /// Points of the local map, odometry frame (m).
   std::vector<Eigen::Vector3f> local_map() const;
 
-  /// Points of the last sweep that went into the map, motion-compensated, sensor frame at the pose's instant (m).
+  /// Points of the last sweep that went into the map, motion-compensated, sensor frame at the time of the pose (m).
   const std::vector<Eigen::Vector3f>& last_map_points() const;
 
   /// Whether last_map_intensities() are wanted, from the next sweep on.
@@ -50,7 +50,7 @@ class Odometry {
   /// Mean intensities of last_map_points(); empty when they are not kept or the sweep had none.
   const std::vector<float>& last_map_intensities() const;
 
-  /// Forgets map, trajectory and motion; the next sweep starts anew at the identity.
+  /// Forgets map, trajectory and motion; the next sweep starts at the identity again.
   void reset();
 
  private:

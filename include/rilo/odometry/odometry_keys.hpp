@@ -12,26 +12,35 @@
 
 namespace rilo {
 
-/// A member of an enum type: the words in order, and access by their place; that of none is behind the last.
+/// A member of an enum type: its words in order, and access by index; a value without a word is behind the last.
 struct KeyChoice {
   std::vector<std::string> words;
   std::function<std::size_t()> get;
   std::function<void(std::size_t)> set;
 };
 
-/// What is done with each key, in the order of the configuration file.
+/// What is said about a key.
+struct KeyInfo {
+  std::string_view name;         ///< after the section: "max_range_m"
+  std::string_view unit;         ///< empty: none
+  std::string_view meaning;      ///< with the symbol of docs/method.md where it has one
+  std::string_view source = {};  ///< of an expert key: the equation or experiment that its value comes from
+
+  /// Whether the key is for experiments with the method; no sensor and no robot has a reason to change it.
+  bool expert() const { return !source.empty(); }
+};
+
+/// What is done with each key, in the order of the table.
 class KeyVisitor {
  public:
   virtual ~KeyVisitor() = default;
 
   /// The keys that follow are "NAME.…".
   virtual void section(std::string_view name, std::string_view meaning) = 0;
-  virtual void real(std::string_view name, double& member, double least, double most, std::string_view unit,
-                    std::string_view meaning) = 0;
-  virtual void integer(std::string_view name, int& member, int least, int most, std::string_view unit,
-                       std::string_view meaning) = 0;
-  virtual void boolean(std::string_view name, bool& member, std::string_view meaning) = 0;
-  virtual void choice_of(std::string_view name, KeyChoice choice, std::string_view meaning) = 0;
+  virtual void real(const KeyInfo& key, double& member, double least, double most) = 0;
+  virtual void integer(const KeyInfo& key, int& member, int least, int most) = 0;
+  virtual void boolean(const KeyInfo& key, bool& member) = 0;
+  virtual void choice_of(const KeyInfo& key, KeyChoice choice) = 0;
 
   template <typename Enum>
   struct Word {
@@ -39,14 +48,14 @@ class KeyVisitor {
     Enum value;
   };
   template <typename Enum>
-  void choice(std::string_view name, Enum& member, std::vector<Word<Enum>> words, std::string_view meaning);
+  void choice(const KeyInfo& key, Enum& member, std::vector<Word<Enum>> words);
 };
 
-/// Shows every key of `config`, with the member it stands for.
+/// Shows every key of `config`, with its member.
 void visit_keys(OdometryConfig& config, KeyVisitor& keys);
 
 template <typename Enum>
-void KeyVisitor::choice(std::string_view name, Enum& member, std::vector<Word<Enum>> words, std::string_view meaning) {
+void KeyVisitor::choice(const KeyInfo& key, Enum& member, std::vector<Word<Enum>> words) {
   KeyChoice choice;
   std::vector<Enum> values;
   for (const Word<Enum>& word : words) {
@@ -54,12 +63,12 @@ void KeyVisitor::choice(std::string_view name, Enum& member, std::vector<Word<En
     values.push_back(word.value);
   }
   choice.get = [&member, values] {
-    std::size_t place = 0;
-    while (place < values.size() && values[place] != member) ++place;
-    return place;
+    std::size_t index = 0;
+    while (index < values.size() && values[index] != member) ++index;
+    return index;
   };
-  choice.set = [&member, values](std::size_t place) { member = values.at(place); };
-  choice_of(name, std::move(choice), meaning);
+  choice.set = [&member, values](std::size_t index) { member = values.at(index); };
+  choice_of(key, std::move(choice));
 }
 
 }  // namespace rilo

@@ -1,4 +1,4 @@
-// What the odometry says about one sweep.
+// Result of one sweep.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ enum class InitialPoseSource : std::uint8_t { kIdentity, kPrediction, kCoarse };
 /// identity, prediction, coarse.
 std::string_view to_string(InitialPoseSource source);
 
-/// The instant of the sweep that a pose refers to.
+/// The time within the sweep that a pose refers to.
 enum class PoseInstant : std::uint8_t { kStart, kMid, kEnd };
 /// start, mid, end.
 std::string_view to_string(PoseInstant instant);
@@ -84,25 +84,25 @@ struct SweepStats {
   double gamma = 1;                              ///< γ_i, steadiness of the motion (III-C)
   double deviation_m = 0;                        ///< e_i, model deviation (III-C)
   std::array<double, 6> relative_eigenvalues{};  ///< of the information matrix, ascending, largest = 1
-  double elevation_offset_rad = 0;               ///< estimate of the angle that the sensor's elevation angles lack
+  double elevation_offset_rad = 0;               ///< estimate of the angle missing from the sensor's elevation angles
   double elevation_offset_sigma_rad = 0;         ///< its standard deviation; infinite before there is one
   double elevation_applied_rad = 0;              ///< angle added to those of the next sweep
-  double beam_elevation_rms_rad = 0;             ///< what is added to single beams of the next sweep, over the beams
+  double beam_elevation_rms_rad = 0;             ///< root mean square of the corrections of single beams, next sweep
   double beam_azimuth_rms_rad = 0;
-  bool points_cut = false;   ///< fewer points than configured, for want of time
-  bool coarse_cut = false;   ///< the coarse stage was left out or broken off, for want of time
+  bool points_cut = false;   ///< fewer points than configured, because of the time budget
+  bool coarse_cut = false;   ///< the coarse stage was skipped or aborted, because of the time budget
   bool over_budget = false;  ///< the sweep took longer than its budget all the same
   StageTimes times;
 };
 
 /// Result of one sweep.
 struct SweepResult {
-  std::int64_t stamp_ns = 0;  ///< instant of the pose
+  std::int64_t stamp_ns = 0;  ///< time of the pose
   SE3 T_odom_lidar = SE3::Identity();
   Vector6d twist = Vector6d::Zero();       ///< body velocity during the sweep [rad/s; m/s]
   Matrix6d covariance = Matrix6d::Zero();  ///< of the pose, right perturbation, [rad; m]
-  /// What the sweep itself shows of the three translations, sensor axes: their block of the information less the noise
-  /// of the normals, relative to the largest of the six eigenvalues. Zero for the first sweep and an empty one.
+  /// Observability of the three translations from the sweep alone, sensor axes: their block of the information less the
+  /// noise of the normals, relative to the largest of the six eigenvalues. Zero for the first sweep and an empty one.
   Eigen::Matrix3d translation_evidence = Eigen::Matrix3d::Zero();
   OdometryStatus status = OdometryStatus::kInitialising;
   SweepStats stats;

@@ -1,11 +1,10 @@
-// The map of a whole run, collected while it goes on.
+// The map of a whole run, collected while it runs.
 #pragma once
 
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "rilo/cloud/map_cloud.hpp"
 #include "rilo/cloud/thinned_map.hpp"
 #include "rilo/session/session_observer.hpp"
 

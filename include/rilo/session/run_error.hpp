@@ -1,4 +1,4 @@
-// Errors of a run and of its results, by what is to be done about them.
+// Errors of a run and of its results, by their cause.
 #pragma once
 
 #include <cstdint>

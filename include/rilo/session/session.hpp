@@ -32,10 +32,10 @@ struct SessionOptions {
   /// soon as that is certain, so that the first sweeps have its correction, too.
   bool one_pass = false;
   bool keep_intensities = false;      ///< Odometry::keep_intensities
-  std::function<bool()> interrupted;  ///< asked before every sweep; true ends the run there. Empty: never
+  std::function<bool()> interrupted;  ///< called before every sweep; true ends the run there. Empty: never
 };
 
-/// What a run gives. All of it is filled whatever ended the run.
+/// Result of a run, complete whatever ended it.
 struct SessionResult {
   std::vector<SweepResult> results;  ///< one per registered sweep, in order
   std::vector<std::size_t> indices;  ///< place of each sweep in the data
@@ -73,8 +73,8 @@ class Session {
 
   const ScanSource& source() const;
 
-  /// Runs to the end of the data, `count`, the interrupt or an error, which stands in the result: what was done before
-  /// it is kept. Data without a sweep to run are an error (RunError, kBadData).
+  /// Runs to the end of the data, `count`, the interrupt or an error, which is kept in the result: what was done before
+  /// it is kept. No sweep to run is an error (RunError, kBadData).
   SessionResult run();
 
  private:

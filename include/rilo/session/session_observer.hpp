@@ -1,4 +1,4 @@
-// What happens during a run, for whoever wants to know.
+// Observation of a run while it is running.
 #pragma once
 
 #include <cstddef>
@@ -24,8 +24,8 @@ struct Restart {
   double elevation_offset_deg;  ///< found there, applied from the first sweep of the second pass on
 };
 
-/// Is called by Session::run(), on its thread, in the order in which things happen. An exception ends the run and
-/// stands in SessionResult::failure.
+/// Called by Session::run(), on its thread, in the order of the events. An exception ends the run and
+/// is kept in SessionResult::failure.
 class SessionObserver {
  public:
   virtual ~SessionObserver() = default;

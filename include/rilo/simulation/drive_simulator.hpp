@@ -7,14 +7,15 @@
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/geometry/se3.hpp"
 #include "rilo/simulation/drive_config.hpp"
-#include "rilo/simulation/drive_path.hpp"
 #include "rilo/simulation/sensor_model.hpp"
 
 namespace rilo {
 
+class DrivePath;
+
 /// One sweep and its true poses. Points in order of firing, topmost beam first. `sweep.stamp_ns` is the start of the
 /// sweep, counted from the first sweep's; `times_s` 0 … 0.1 s, empty when deskewed; `intensities` 0 … 1; `rings` 0 for
-/// the topmost beam. Each pose is relative to the first sweep's pose at the SAME instant: all three begin with the
+/// the topmost beam. Each pose is relative to the first sweep's pose at the SAME time: all three begin with the
 /// identity.
 struct SimulatedSweep {
   Sweep sweep;

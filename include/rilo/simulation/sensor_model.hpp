@@ -15,12 +15,12 @@ enum class SensorKind : std::uint8_t { kHdl64, kVlp16, kOs1 };
 std::string_view to_string(SensorKind kind);
 std::optional<SensorKind> parse_sensor_kind(std::string_view text);
 
-/// Geometry of a sensor that turns clockwise (seen from above) once a sweep, from straight behind to straight behind,
+/// Geometry of a sensor that spins clockwise (seen from above) once per sweep, from straight behind to straight behind,
 /// so that the middle of the sweep looks ahead. All beams of a column fire together.
 struct SensorModel {
   SensorKind kind = SensorKind::kHdl64;
-  std::vector<double> elevations_rad;  ///< one a beam (ring), topmost first
-  std::size_t columns = 0;             ///< firings a sweep
+  std::vector<double> elevations_rad;  ///< one per beam (ring), topmost first
+  std::size_t columns = 0;             ///< firings per sweep
   double period_s = 0.1;               ///< one sweep
   double min_range_m = 0;
   double max_range_m = 0;

@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/degrees.hpp"
 #include "io/file_bytes.hpp"
 #include "io/packets/ouster.hpp"
 #include "io/text.hpp"
-#include "rilo/geometry/degrees.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {

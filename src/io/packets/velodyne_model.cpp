@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "geometry/degrees.hpp"
 #include "io/packets/velodyne.hpp"
 #include "io/text.hpp"
-#include "rilo/geometry/degrees.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "rilo/io/atomic_file.hpp"
+#include "io/atomic_file.hpp"
 
 namespace rilo::detail {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <tf2_msgs/TFMessage.h>
 
+#include "io/atomic_file.hpp"
 #include "io/raw_bytes.hpp"
 #include "io/ros/message_stamp.hpp"
 #include "io/unit_quaternion.hpp"
-#include "rilo/io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/ros_covariance.hpp"
 #include "rilo/io/trajectory_recording.hpp"

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "rilo/odometry/odometry.hpp"
+#include "rilo/rilo.hpp"
 
 #ifdef RUN_RECORDING
 int run_recording_of_a_room(const rilo::Sweep& first, const rilo::Sweep& second);

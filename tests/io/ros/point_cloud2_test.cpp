@@ -1,4 +1,4 @@
-#include "rilo/io/point_cloud2.hpp"
+#include "io/point_cloud2.hpp"
 
 #include <cmath>
 #include <random>

@@ -1,7 +1,7 @@
 // One simulated drive in every format: the same sweeps and the same trajectory, bit for bit.
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
-#include "rilo/io/sweep_writer.hpp"
+#include "io/sweep_writer.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 

@@ -1,0 +1,119 @@
+#include "calibration/beam_calibration.hpp"
+
+#include <algorithm>
+
+#include <Eigen/LU>
+
+#include "registration/plane_residuals.hpp"
+
+namespace rilo {
+
+namespace {
+
+constexpr double kMemorySweeps = 100.0;  // the mean information follows the place, not the single sweep
+// Prior towards zero, in the unit of the information of one beam and sweep (sum of squared Jacobians, m²): a beam with
+// fewer or nearer points hardly moves.
+constexpr double kPriorInformation = 50.0;
+constexpr double kHalfWeightInformation = 150.0;  // m²: with this much a beam has weight ½
+constexpr double kNeighbourhood = 0.052;          // tangent: 3°, the neighbours of a beam
+constexpr std::size_t kFewestNeighbours = 5;      // itself included: their mean is steadier than the beam
+
+}  // namespace
+
+void BeamCalibration::learn(const BeamSample& sample, const LocalMap& map, const IcpResult& icp, double sigma_th_m,
+                            const AdaptiveIcpConfig& config) {
+  observe(sample, map, icp, sigma_th_m, config);
+  sum_up(sample);
+  find_steps();
+  apply_differences();
+}
+
+void BeamCalibration::observe(const BeamSample& sample, const LocalMap& map, const IcpResult& icp, double sigma_th_m,
+                              const AdaptiveIcpConfig& config) {
+  observations_.assign(sample.cloud.size(), Observation{});
+  const Eigen::Matrix3d to_sensor = icp.state.T_odom_lidar.linear().transpose();
+  const RegisteredSource sweep{sample.cloud, icp.state, sigma_th_m, config.gate * sigma_th_m};
+  for_each_residual(sweep, map, [&](std::size_t /*chunk*/, const PlaneResidual& residual) {
+    if (sample.beams[residual.index] >= kBeams) {
+      return;
+    }
+    const Eigen::Vector3d normal = to_sensor * residual.plane.normal;
+    observations_[residual.index] = {{normal.dot(elevation_jacobian(residual.sensor).cast<double>()),
+                                      normal.dot(azimuth_jacobian(residual.sensor).cast<double>())},
+                                     residual.distance_m,
+                                     residual.weight};
+  });
+}
+
+void BeamCalibration::sum_up(const BeamSample& sample) {
+  for (Information& beam : beams_) {
+    beam.sweep.setZero();
+    beam.gradient.setZero();
+  }
+  in_order_.clear();
+  for (std::size_t i = 0; i < observations_.size(); ++i) {
+    const Observation& seen = observations_[i];
+    if (!(seen.weight > 0.0)) {
+      continue;
+    }
+    Information& beam = beams_[sample.beams[i]];
+    beam.sweep += seen.weight * seen.jacobian * seen.jacobian.transpose();
+    beam.gradient -= seen.weight * seen.residual_m * seen.jacobian;
+    const Eigen::Vector3f& p = sample.cloud.points[i];
+    beam.points += 1.0;
+    beam.tangent += (static_cast<double>(p.z() / p.head<2>().norm()) - beam.tangent) / beam.points;
+  }
+  for (std::size_t b = 0; b < kBeams; ++b) {
+    if (beams_[b].points > 0.0) {
+      in_order_.push_back(static_cast<Beam>(b));
+    }
+  }
+  std::sort(in_order_.begin(), in_order_.end(), [&](Beam a, Beam b) { return beams_[a].tangent < beams_[b].tangent; });
+}
+
+void BeamCalibration::find_steps() {
+  sweeps_ = std::min(sweeps_ + 1.0, kMemorySweeps);
+  for (const Beam b : in_order_) {
+    Information& beam = beams_[b];
+    beam.mean += (beam.sweep - beam.mean) / sweeps_;
+    const Eigen::Matrix2d information = beam.mean + kPriorInformation * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d angles = angles_[b].cast<double>();
+    steps_[b] = config_.gain * information.inverse() * (beam.gradient - kPriorInformation * angles);
+  }
+}
+
+void BeamCalibration::apply_differences() {
+  std::size_t first = 0;
+  for (const Beam b : in_order_) {
+    const double tangent = beams_[b].tangent;
+    while (beams_[in_order_[first]].tangent < tangent - kNeighbourhood) {
+      ++first;
+    }
+    Eigen::Array2d sum = Eigen::Array2d::Zero();
+    Eigen::Array2d total = Eigen::Array2d::Zero();
+    std::size_t neighbour = first;
+    for (; neighbour < in_order_.size(); ++neighbour) {
+      const Information& other = beams_[in_order_[neighbour]];
+      if (other.tangent > tangent + kNeighbourhood) {
+        break;
+      }
+      const Eigen::Array2d seen = other.mean.diagonal().array();
+      const Eigen::Array2d weight = seen / (seen + kHalfWeightInformation);
+      sum += weight * steps_[in_order_[neighbour]].array();
+      total += weight;
+    }
+    if (neighbour - first >= kFewestNeighbours && total.minCoeff() > 0.0) {
+      angles_[b] += (steps_[b] - (sum / total).matrix()).cast<float>();
+    }
+  }
+}
+
+Eigen::Vector2d BeamCalibration::rms_rad() const {
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  for (const Beam b : in_order_) {
+    squares += angles_[b].cast<double>().cwiseAbs2();
+  }
+  return (squares / std::max(1.0, static_cast<double>(in_order_.size()))).cwiseSqrt();
+}
+
+}  // namespace rilo

@@ -1,0 +1,43 @@
+// What the odometry learns about its sensor: a constant elevation offset, and the angles of single beams.
+#pragma once
+
+#include "calibration/beam_calibration.hpp"
+#include "calibration/elevation_offset.hpp"
+#include "cloud/preprocess.hpp"
+#include "map/local_map.hpp"
+#include "registration/adaptive_icp.hpp"
+
+namespace rilo {
+
+/// Both calibrations. They learn from registered sweeps; what they find corrects the points of the next one.
+class SensorCalibration {
+ public:
+  SensorCalibration(const ElevationOffsetConfig& elevation, const BeamCalibrationConfig& beams)
+      : elevation_config_(elevation), beams_config_(beams), elevation_(elevation), beams_(beams) {}
+
+  /// Learns from a sweep that was registered to `map` with `sigma_th_m` and `config`, before it goes into the map, and
+  /// moves the map when the applied elevation offset changes. `sound`: the sweep is beyond doubt; of any other only the
+  /// pose derivative is followed.
+  void learn(const PreparedSweep& prepared, const IcpResult& icp, double sigma_th_m, const AdaptiveIcpConfig& config,
+             bool sound, LocalMap& map);
+
+  /// Derivative of the last pose with respect to the elevation offset: LocalMap::insert keeps it with the points.
+  const PoseDerivative& pose_by_elevation() const { return pose_by_elevation_; }
+
+  /// Hands the corrections to the preprocessing of the next sweep.
+  void apply_to(Preprocessor& preprocessor) const;
+
+  const ElevationOffsetEstimator& elevation() const { return elevation_; }
+  const BeamCalibration& beams() const { return beams_; }
+
+  void reset() { *this = SensorCalibration(elevation_config_, beams_config_); }
+
+ private:
+  ElevationOffsetConfig elevation_config_;
+  BeamCalibrationConfig beams_config_;
+  ElevationOffsetEstimator elevation_;
+  BeamCalibration beams_;
+  PoseDerivative pose_by_elevation_;
+};
+
+}  // namespace rilo

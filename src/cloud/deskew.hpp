@@ -1,0 +1,58 @@
+// Motion compensation from per-point times.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "cloud/timed_cloud.hpp"
+#include "rilo/geometry/se3.hpp"
+
+namespace rilo {
+
+/// Constant-velocity motion of the sensor during a sweep, tabulated: the exponential is evaluated at a fixed number of
+/// times, and the small remainder to a point's own time is of second order. The error is below a tenth of a millimetre
+/// at 100 m, 360 °/s and 30 m/s over a sweep of 0.1 s.
+class SweepMotion {
+ public:
+  /// `twist`: body velocity [rad/s; m/s]; `begin_s`, `end_s`: span of the offsets that will be asked for.
+  SweepMotion(const Vector6d& twist, float begin_s, float end_s);
+  /// Over the span of the cloud's offsets.
+  static SweepMotion during(const TimedCloud& cloud, const Vector6d& twist);
+
+  /// Point `p` measured at `offset_s`, expressed in the sensor frame at the reference time (offset 0).
+  Eigen::Vector3f compensate(const Eigen::Vector3f& p, float offset_s) const {
+    const float position = (offset_s - begin_s_) * inverse_step_;
+    const int bin = static_cast<int>(position + 0.5F);
+    const Knot& knot = knots_[static_cast<std::size_t>(bin < 0 ? 0 : (bin > last_ ? last_ : bin))];
+    const float rest = offset_s - knot.offset_s;
+    const Eigen::Vector3f rate = omega_.cross(p) + velocity_;
+    const Eigen::Vector3f q = p + rest * (rate + 0.5F * rest * omega_.cross(rate));
+    return knot.R * q + knot.t;
+  }
+
+  /// Point `i` of `cloud` in the same way; as it is when it has no times.
+  Eigen::Vector3f compensated(const TimedCloud& cloud, std::size_t i) const {
+    return cloud.timed() ? compensate(cloud.points[i], cloud.offsets_s[i]) : cloud.points[i];
+  }
+
+ private:
+  struct Knot {
+    Eigen::Matrix3f R;
+    Eigen::Vector3f t;
+    float offset_s;
+  };
+  Eigen::Vector3f omega_;
+  Eigen::Vector3f velocity_;
+  float begin_s_;
+  float inverse_step_;
+  int last_;
+  std::vector<Knot> knots_;
+};
+
+/// Motion-compensates `cloud` for a sensor moving with the body velocity `twist` [rad/s; m/s]. Untimed clouds are
+/// copied. `out` is resized to the cloud's size.
+void deskew(const TimedCloud& cloud, const Vector6d& twist, std::vector<Eigen::Vector3f>& out);
+
+}  // namespace rilo

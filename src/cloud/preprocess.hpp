@@ -1,0 +1,88 @@
+// From a raw sweep to the two clouds the pipeline works on.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cloud/beam_angles.hpp"
+#include "cloud/beam_index.hpp"
+#include "cloud/beam_sample.hpp"
+#include "cloud/timed_cloud.hpp"
+#include "cloud/voxel_mean.hpp"
+#include "rilo/cloud/preprocess_config.hpp"
+#include "rilo/cloud/sweep.hpp"
+
+namespace rilo {
+
+/// A sweep after range crop and downsampling; times relative to the middle of the sweep.
+struct PreparedSweep {
+  std::int64_t mid_stamp_ns = 0;  ///< reference time of the sweep's pose
+  std::size_t valid_points = 0;   ///< finite and within range
+  TimedCloud map_cloud;           ///< one point per map voxel, the mean of its points
+  TimedCloud source;              ///< S, one point per source voxel, the mean of its points
+  BeamSample beam_sample;         ///< some of the points as measured; empty unless beams are tracked
+  double median_range_m = 0;      ///< of S
+  double scene_range_m = 0;       ///< the same, smoothed over the sweeps: how large the place is
+};
+
+/// Range crop, NaN removal, time normalisation and downsampling. Keeps its buffers from sweep to sweep.
+class Preprocessor {
+ public:
+  explicit Preprocessor(const PreprocessConfig& config)
+      : config_(config), source_points_(static_cast<double>(config.source_points)) {}
+
+  /// The result is valid until the next call.
+  const PreparedSweep& prepare(const SweepView& sweep);
+
+  /// Angle (rad) added to the elevation angle of every point from now on.
+  void set_elevation_offset(double offset_rad) { elevation_offset_rad_ = offset_rad; }
+
+  /// Angles added to those of single beams from now on.
+  void set_beam_angles(const BeamAngles& angles) { beam_angles_ = angles; }
+
+  /// Whether to find out which beam each point came from: fills the sample, and corrects the angles of single beams.
+  void track_beams(bool tracked) { beams_tracked_ = tracked; }
+
+  /// Whether the clouds carry the intensities of sweeps that have them.
+  void keep_intensities(bool kept) { intensities_kept_ = kept; }
+
+  /// How many points the source cloud should have from the next sweep on, instead of config.source_points.
+  void set_source_points(double points);
+
+  void reset();
+
+ private:
+  void crop(const SweepView& sweep);
+  template <typename Valid>
+  std::size_t count_by_chunk(std::size_t count, const Valid& valid);
+  void sample_beams();
+  void normalise_times(const SweepView& sweep);
+  void downsample(double source_voxel_m);
+  void adapt_voxel();
+  void update_scene_range();
+
+  PreprocessConfig config_;
+  TimedCloud cropped_;
+  PreparedSweep prepared_;
+  std::vector<std::size_t> chunk_begins_;
+  std::vector<float> ranges_;
+  VoxelMean map_mean_;
+  VoxelMean source_mean_;
+  double source_points_;       // aimed for
+  double source_voxel_m_ = 0;  // 0: no sweep has been seen
+  double elevation_offset_rad_ = 0;
+  bool beams_tracked_ = false;
+  bool intensities_kept_ = false;
+  BeamIndex beam_index_;
+  BeamAngles beam_angles_;
+  std::vector<Beam> beams_;          // of the points of the sweep
+  std::vector<Beam> cropped_beams_;  // of those of cropped_
+  std::size_t sample_phase_ = 0;
+  // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its
+  // seam, and the reference time must not.
+  bool span_known_ = false;
+  float span_begin_s_ = 0;
+  float span_end_s_ = 0;
+};
+
+}  // namespace rilo

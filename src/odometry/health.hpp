@@ -1,0 +1,28 @@
+// How far a registration can be trusted.
+#pragma once
+
+#include "registration/adaptive_icp.hpp"
+#include "rilo/odometry/odometry_config.hpp"
+#include "rilo/odometry/sweep_result.hpp"
+
+namespace rilo {
+
+/// Evidence about one registration.
+struct Evidence {
+  std::size_t source_points = 0;
+  double score = 0;             ///< map score at the registered pose
+  double usual_score = 0;       ///< of the sweeps before; 0: unknown
+  bool was_lost = false;        ///< the sweep before was lost
+  bool young_map = false;       ///< the map has few sweeps: it explains less than usual
+  bool shrunk = false;          ///< the place is much smaller than one sweep before: something covers the sensor
+  bool possible_motion = true;  ///< a sensor can have moved to the pose
+  bool second_sweep = false;    ///< of the map: there is no usual score to judge it by
+};
+
+/// Status of a registered sweep.
+OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
+
+/// Whether the sweep fits the map well enough for its pose to be right, whatever the motion to it.
+bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
+
+}  // namespace rilo

@@ -1,0 +1,131 @@
+// Reliable initial pose: coarse registration when it is worth it (III-A), and the choice against the prediction
+// (III-B).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "cloud/timed_cloud.hpp"
+#include "cloud/voxel_sampler.hpp"
+#include "map/local_map.hpp"
+#include "registration/adaptive_icp.hpp"
+#include "registration/coarse_registration.hpp"
+#include "rilo/odometry/odometry_config.hpp"
+#include "rilo/odometry/sweep_result.hpp"
+
+namespace rilo {
+
+/// T_init and why.
+struct InitialPose {
+  SE3 T_odom_lidar = SE3::Identity();
+  InitialPoseSource source = InitialPoseSource::kPrediction;
+  InitialPoseReason reason = InitialPoseReason::kCoarseNotNeeded;
+  int coarse_starts = 0;             ///< of the coarse stage; 0: it did not run
+  int coarse_iterations = 0;         ///< over all starts
+  bool coarse_cut = false;           ///< not run, or not from all starts, because of the time budget
+  double prediction_score = 0;       ///< map score of T_pred, 0 … 1
+  double pred_align_distance_m = 0;  ///< Δt_i
+};
+
+/// Candidate poses with their map scores.
+struct ScoredPose {
+  SE3 T_odom_lidar = SE3::Identity();
+  double score = 0;
+};
+
+/// The rule of III-B: chooses between prediction and coarse result, both in the odometry frame.
+InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse,
+                                const InitialPoseConfig& config);
+
+/// The stage: knows the usual score and the last sweep's cloud.
+class InitialPoseStage {
+ public:
+  InitialPoseStage(const InitialPoseConfig& config, const CoarseRegistrationConfig& coarse)
+      : config_(config), coarse_(coarse) {}
+
+  /// What the choice is made from.
+  struct Situation {
+    const TimedCloud& source;                             ///< the sweep: points (m, sensor frame) with their times
+    const MotionState& predicted;                         ///< T_pred and the velocity during the sweep
+    const SE3& previous;                                  ///< T_{i−1}, the pose of the last sweep that was accepted
+    const std::function<Vector6d(const SE3&)>& twist_at;  ///< velocity of the sweep, were its pose the one given
+    const LocalMap& map;                                  ///< judges the candidates
+    /// The map holds one sweep, compensated for predicted.twist: only a sweep compensated for the same looks like it,
+    /// whatever motion its candidate implies.
+    bool single;
+    bool in_doubt;  ///< the prediction must not be trusted whatever its score (start, after a loss)
+    /// Called before each start of the coarse stage: whether there is time for it; empty: always.
+    const std::function<bool()>& time_left;
+  };
+
+  /// Chooses the initial pose of a sweep.
+  InitialPose choose(const Situation& situation);
+
+  /// Map score of a registered sweep; the cloud becomes the next target.
+  double score(const TimedCloud& source, const MotionState& state, const LocalMap& map);
+
+  /// Whether a registered sweep with that score and residuals fits so much worse than usual that it may have been taken
+  /// at another time than its stamp.
+  bool suspicious(double score, double residual_rms_m) const;
+
+  /// Where on the path of `predicted` a sweep may have been taken, the best places first (at most three): the maxima of
+  /// its score on `map` from two periods `dt_s` back to twelve on.
+  std::vector<SE3> places_on_path(const TimedCloud& source, const MotionState& predicted, double dt_s,
+                                  const LocalMap& map);
+
+  /// Updates the usual score: slowly with a score that raises the alarm. A pose that slides away slowly
+  /// must not take the reference along, and a place with less structure must become usual in time.
+  void learn(double score, double residual_rms_m);
+
+  /// A map begins with a sweep: its cloud becomes the target, its score the least that is expected.
+  void begin(const TimedCloud& source, const MotionState& state, const LocalMap& map);
+
+  /// The usual score, or, while it is not known, what the first sweep of the map scores on itself.
+  double expected_score() const { return usual_score_ > 0.0 ? usual_score_ : own_score_; }
+
+  /// Keeps the motion-compensated source of a sweep as target of the next coarse registration: the distribution that
+  /// was made of it as a source where `twist` is about the velocity that it was compensated for then.
+  void keep_target(const TimedCloud& source, const Vector6d& twist);
+
+  void reset();
+
+ private:
+  /// What the coarse stage found.
+  struct Search {
+    ScoredPose best;
+    int iterations = 0;
+    int starts = 0;
+    bool cut = false;  // no time for further starts
+  };
+  /// Coarse registrations from the prediction and, in doubt, from further starts, until one is consistent.
+  Search search(const Situation& situation, bool doubt);
+  void consider(const Situation& situation, const SE3& T, ScoredPose& best);
+  void try_from(const Situation& situation, const SE3& start, Search& search);
+  /// Score of a candidate: on the sweep compensated for `twist`; with all points in the single case, where the
+  /// candidates differ by few of them.
+  double candidate_score(const Situation& situation, const SE3& T, const Vector6d& twist);
+  DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points);
+  /// Whether a score is not far below the usual one.
+  bool is_consistent(double score) const;
+  /// Further starts for the coarse stage: the best poses of a search around `centre`, on the sweep as compensated
+  /// last.
+  std::vector<SE3> restarts(const SE3& centre, const LocalMap& map) const;
+
+  InitialPoseConfig config_;
+  CoarseRegistrationConfig coarse_;
+  VoxelSampler sampler_;
+  std::vector<Eigen::Vector3f> compensated_;
+  std::vector<Eigen::Vector3f> target_points_;
+  // Of the last sweep, once it is needed; of this one, compensated for moving_twist_, when it was needed.
+  std::optional<DistributionCloud> target_;
+  std::optional<DistributionCloud> moving_;
+  Vector6d moving_twist_ = Vector6d::Zero();
+  double usual_score_ = 0;
+  double usual_rms_m_ = 0;  // of the residuals of registered sweeps
+  double own_score_ = 0;    // of the first sweep on the map of itself: what a sweep at the right place can reach
+};
+
+}  // namespace rilo

@@ -1,0 +1,23 @@
+// Prior of the next pose and velocity from the motion so far.
+#pragma once
+
+#include "registration/adaptive_icp.hpp"
+#include "rilo/odometry/odometry_config.hpp"
+
+namespace rilo {
+
+/// Covariance of an unknown velocity: a car on a motorway, a sensor turned by hand ([rad/s; m/s] squared).
+Matrix6d unknown_velocity_covariance();
+
+/// Prior of pose and velocity `dt_s` after a pose taken as certain (odometry is relative) with the velocity covariance
+/// `velocity_covariance` [rad/s; m/s]; the velocity performs a random walk. `predicted` is the mean. It holds the
+/// directions that a sweep does not constrain, and it ties the velocity during the sweep to the displacement since the
+/// last. Zero information when off.
+MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s,
+                         const MotionPriorConfig& config);
+
+/// Mean of the prior: `last` moved on by `dt_s`. Speed is kept; the turn rate fades within about a second, since
+/// vehicles end their turns, and a turn rate that nothing observes (an open field) would run away.
+MotionState expected_motion(const MotionState& last, double dt_s);
+
+}  // namespace rilo

@@ -1,0 +1,237 @@
+#include "odometry/pipeline.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "odometry/motion_prior.hpp"
+#include "odometry/sweep_record.hpp"
+#include "registration/uneven_motion.hpp"
+
+namespace rilo {
+
+namespace {
+constexpr std::size_t kEstablishedSweeps = 3;  // the prediction needs two motions
+constexpr std::size_t kUnevenStride = 4;       // every fourth point shows the motion within a sweep
+
+std::size_t workers(const OdometryConfig& config) {
+  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return std::max(allowed, static_cast<std::size_t>(std::max(config.threads, 0)));
+}
+}  // namespace
+
+Pipeline::Pipeline(const OdometryConfig& config, Odometry::Clock clock)
+    : config_(validated(config)),
+      clock_(std::move(clock)),
+      workers_(tbb::global_control::max_allowed_parallelism, workers(config)),
+      arena_(config.threads > 0 ? config.threads : tbb::task_arena::automatic),
+      budget_(config.budget),
+      preprocessor_(config.preprocess),
+      tracker_(config.prediction, config.prior, config.bounds),
+      initial_pose_(config.initial_pose, config.coarse),
+      judge_(config.health),
+      threshold_(config.threshold),
+      calibration_(config.elevation, config.beams),
+      map_(config.map) {
+  if (budget_.limited() && !clock_) {
+    throw std::invalid_argument("configuration: budget.sweep_ms is set, but the odometry was given no clock");
+  }
+  calibration_.apply_to(preprocessor_);
+}
+
+SweepResult Pipeline::register_sweep(const SweepView& sweep) {
+  SweepResult result;
+  arena_.execute([&] { process(sweep, result); });
+  return result;
+}
+
+void Pipeline::process(const SweepView& sweep, SweepResult& result) {
+  const PreparedSweep& prepared = prepare(sweep, result);
+  if (prepared.source.points.empty() || repeated_) {
+    result.status = OdometryStatus::kEmpty;
+    if (map_.sweeps() > 0) {
+      lose(prepared, predict(prepared), std::nullopt, result);
+    }
+  } else if (map_.sweeps() == 0) {
+    begin_map(prepared, {}, result);
+  } else {
+    register_to_map(prepared, result);
+  }
+  finish(result);
+}
+
+void Pipeline::register_to_map(const PreparedSweep& prepared, SweepResult& result) {
+  map_.map().set_scene_range(prepared.scene_range_m);
+  const MotionState predicted = predict(prepared);                                 // III-B
+  const InitialPose init = choose_initial_pose(prepared, predicted, result);       // III-A, III-B
+  Registration registration = register_finely(prepared, predicted, init, result);  // III-D
+  const Judgement judgement = judge(prepared, registration, result);               // before anything is learnt
+  if (judgement.status != OdometryStatus::kLost) {
+    accept(prepared, std::move(registration), judgement.motion, result);  // III-C, local map
+  } else if (judgement.fits_map) {
+    lose(prepared, predicted, registration.icp.state.T_odom_lidar, result);
+  } else {
+    lose(prepared, predicted, std::nullopt, result);
+  }
+  result.stats.times.map_ms = clock_.lap_ms();
+}
+
+const PreparedSweep& Pipeline::prepare(const SweepView& sweep, SweepResult& result) {
+  coarse_starts_ = 0;
+  clock_.begin();
+  if (budget_.limited()) {
+    preprocessor_.set_source_points(budget_.point_share() * static_cast<double>(config_.preprocess.source_points));
+    result.stats.points_cut = budget_.point_share() < 1.0;
+  }
+  const PreparedSweep& prepared = preprocessor_.prepare(sweep);
+  record(sweep, prepared, result.stats);
+  result.stats.times.preprocess_ms = clock_.lap_ms();
+  const SweepTime time = sweep_clock_.advance(prepared.mid_stamp_ns);
+  result.stamp_ns = time.stamp_ns;
+  tracker_.advance(time.step_ns);
+  const Fingerprint before = std::exchange(fingerprint_, Fingerprint(sweep.points));
+  repeated_ = fingerprint_ == before;
+  return prepared;
+}
+
+MotionState Pipeline::predict(const PreparedSweep& prepared) {
+  MotionState predicted = tracker_.predicted(threshold_.sigma_th_m());
+  const std::optional<MotionState> claimed = tracker_.predicted_from_claim();
+  if (claimed && initial_pose_.score(prepared.source, *claimed, map_.map()) >
+                     initial_pose_.score(prepared.source, predicted, map_.map())) {
+    return *claimed;
+  }
+  return predicted;
+}
+
+/// For a second look at a sweep. While the map is not established it is worth being late.
+bool Pipeline::time_left() const {
+  return !budget_.limited() || !established() || budget_.coarse_fits(clock_.total_ms());
+}
+
+InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const MotionState& predicted,
+                                          SweepResult& result) {
+  const std::function<Vector6d(const SE3&)> twist_at = [&](const SE3& T) { return tracker_.implied_twist(T); };
+  const std::function<bool()> has_time = [&] { return time_left(); };
+  InitialPose init =
+      initial_pose_.choose({prepared.source, predicted, tracker_.trusted().T_odom_lidar, twist_at, map_.map(),
+                            map_.first_can_be_compensated(), !established() || tracker_.lost(), has_time});
+  coarse_starts_ = init.coarse_starts;
+  record(init, result.stats);
+  result.stats.times.initial_pose_ms = clock_.lap_ms();
+  return init;
+}
+
+Registration Pipeline::register_finely(const PreparedSweep& prepared, const MotionState& predicted,
+                                       const InitialPose& init, SweepResult& result) {
+  result.stats.sigma_th_m = threshold_.sigma_th_m();
+  const double period_s = static_cast<double>(sweep_clock_.period_ns()) * 1e-9;
+  const std::function<bool()> has_time = [&] { return time_left(); };
+  const RegistrationStage stage({config_, prepared, tracker_, map_, initial_pose_, calibration_.pose_by_elevation(),
+                                 threshold_.sigma_th_m(), period_s, has_time});
+  Registration registration = stage.run(predicted, init);
+  const IcpResult& icp = registration.icp;
+  record(icp, result.stats);
+  const Eigen::Matrix3d R = icp.state.T_odom_lidar.linear();
+  result.translation_evidence = R.transpose() * icp.degeneracy.translation_evidence() * R;
+  result.stats.times.registration_ms = clock_.lap_ms();
+  return registration;
+}
+
+Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& registration, SweepResult& result) {
+  const MotionVerdict motion = tracker_.weigh(registration.icp.state.T_odom_lidar);
+  const Judgement judgement =
+      judge_.judge(prepared, registration, motion, {map_.sweeps(), initial_pose_.expected_score(), tracker_.lost()});
+  result.stats.map_score = registration.score;
+  result.status = judgement.status;
+  return judgement;
+}
+
+void Pipeline::accept(const PreparedSweep& prepared, Registration registration, MotionVerdict motion,
+                      SweepResult& result) {
+  const IcpResult& icp = registration.icp;
+  const double sigma_th_m = threshold_.sigma_th_m();
+  if (registration.map) {
+    map_.replace(std::move(*registration.map));
+  }
+
+  const bool degenerate = result.status == OdometryStatus::kDegenerate;
+  const Vector6d uneven = uneven_motion(prepared.source, map_.map(), icp, sigma_th_m, config_.icp,
+                                        PoseCovariance::evidence_share(config_.icp), kUnevenStride);
+  result.covariance = pose_covariance_.of(icp, degenerate, tracker_.trusted().twist,
+                                          prepared.source.timed() ? tracker_.since_trusted_s() : 0.0, uneven);
+  const Eigen::Vector3d step = tracker_.accept(icp, motion, degenerate);
+
+  if (map_.sweeps() >= 2) {
+    threshold_.update(registration.T_init, tracker_.state().T_odom_lidar, step - last_step_);
+    result.stats.gamma = threshold_.gamma();
+    result.stats.deviation_m = threshold_.deviation_m();
+  }
+  last_step_ = step;
+
+  const bool sound = result.status == OdometryStatus::kOk && established();
+  calibration_.learn(prepared, icp, threshold_.sigma_th_m(), config_.icp, sound, map_.map());
+  calibration_.apply_to(preprocessor_);
+
+  judge_.accept(prepared);
+  initial_pose_.learn(result.stats.map_score, icp.residual_rms_m);
+  initial_pose_.keep_target(prepared.source, tracker_.state().twist);
+  map_.insert(prepared.map_cloud, tracker_.state(), calibration_.pose_by_elevation());
+}
+
+void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,
+                    SweepResult& result) {
+  result.covariance = unknown_velocity_covariance();
+  threshold_.widen();
+  tracker_.lose(predicted, claim);
+  if (result.status == OdometryStatus::kEmpty) {
+    return;  // nothing contradicts the map
+  }
+  if (judge_.give_up(established())) {
+    begin_map(prepared, predicted, result);
+  }
+}
+
+void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result) {
+  result.status = OdometryStatus::kInitialising;
+  judge_.accept(prepared);
+  map_.begin(prepared.map_cloud, state, prepared.scene_range_m, calibration_.pose_by_elevation());
+  tracker_.begin(state);
+  initial_pose_.begin(prepared.source, state, map_.map());
+}
+
+void Pipeline::finish(SweepResult& result) {
+  result.T_odom_lidar = tracker_.state().T_odom_lidar;
+  result.twist = tracker_.state().twist;
+  result.stats.map_voxels = map_.map().size();
+  record(calibration_, result.stats);
+  trajectory_.push_back({result.stamp_ns, result.T_odom_lidar});
+  result.stats.times.total_ms = clock_.total_ms();
+  if (budget_.limited()) {
+    const double coarse_ms = coarse_starts_ > 0 ? result.stats.times.initial_pose_ms : 0.0;
+    budget_.learn(result.stats.times.total_ms, coarse_ms, coarse_starts_);
+    result.stats.over_budget = result.stats.times.total_ms > config_.budget.sweep_ms;
+  }
+}
+
+void Pipeline::reset() {
+  budget_.reset();
+  preprocessor_.reset();
+  sweep_clock_.reset();
+  tracker_.reset();
+  initial_pose_.reset();
+  judge_.reset();
+  threshold_.reset();
+  pose_covariance_.reset();
+  calibration_.reset();
+  calibration_.apply_to(preprocessor_);
+  map_.clear();
+  trajectory_.clear();
+  fingerprint_ = {};
+  last_step_.setZero();
+}
+
+bool Pipeline::established() const { return map_.sweeps() >= kEstablishedSweeps; }
+
+}  // namespace rilo

@@ -1,0 +1,79 @@
+// The stages of the odometry and the state that they share.
+#pragma once
+
+#include <optional>
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include "calibration/sensor_calibration.hpp"
+#include "cloud/fingerprint.hpp"
+#include "cloud/preprocess.hpp"
+#include "odometry/adaptive_threshold.hpp"
+#include "odometry/initial_pose.hpp"
+#include "odometry/motion_tracker.hpp"
+#include "odometry/pose_covariance.hpp"
+#include "odometry/registration_stage.hpp"
+#include "odometry/stage_clock.hpp"
+#include "odometry/sweep_clock.hpp"
+#include "odometry/sweep_judge.hpp"
+#include "odometry/sweep_map.hpp"
+#include "odometry/time_budget.hpp"
+#include "rilo/odometry/odometry.hpp"
+
+namespace rilo {
+
+/// One call per sweep, one function per stage, in the order of docs/method.md.
+class Pipeline {
+ public:
+  /// @throws as the constructor of Odometry.
+  Pipeline(const OdometryConfig& config, Odometry::Clock clock);
+
+  SweepResult register_sweep(const SweepView& sweep);
+
+  void reset();
+
+  const Trajectory& trajectory() const { return trajectory_; }
+  const SweepMap& map() const { return map_; }
+  void keep_intensities(bool kept) { preprocessor_.keep_intensities(kept); }
+
+ private:
+  void process(const SweepView& sweep, SweepResult& result);
+  const PreparedSweep& prepare(const SweepView& sweep, SweepResult& result);
+  void register_to_map(const PreparedSweep& prepared, SweepResult& result);
+  MotionState predict(const PreparedSweep& prepared);
+  InitialPose choose_initial_pose(const PreparedSweep& prepared, const MotionState& predicted, SweepResult& result);
+  Registration register_finely(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init,
+                               SweepResult& result);
+  Judgement judge(const PreparedSweep& prepared, const Registration& registration, SweepResult& result);
+  void accept(const PreparedSweep& prepared, Registration registration, MotionVerdict motion, SweepResult& result);
+  void lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,
+            SweepResult& result);
+  void begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result);
+  void finish(SweepResult& result);
+
+  bool established() const;
+  bool time_left() const;
+
+  OdometryConfig config_;
+  StageClock clock_;
+  tbb::global_control workers_;  // more than the machine has when config.threads says so
+  tbb::task_arena arena_;
+  TimeBudget budget_;
+  Preprocessor preprocessor_;
+  SweepClock sweep_clock_;
+  MotionTracker tracker_;
+  InitialPoseStage initial_pose_;
+  SweepJudge judge_;
+  AdaptiveThreshold threshold_;
+  PoseCovariance pose_covariance_;
+  SensorCalibration calibration_;
+  SweepMap map_;
+  Trajectory trajectory_;
+  Fingerprint fingerprint_;                              // of the last sweep
+  bool repeated_ = false;                                // this sweep is the last one again: a driver that hangs
+  Eigen::Vector3d last_step_ = Eigen::Vector3d::Zero();  // displacement of the last sweep, sensor frame
+  int coarse_starts_ = 0;                                // of this sweep
+};
+
+}  // namespace rilo

@@ -1,0 +1,52 @@
+// Fine registration of a sweep from its initial pose (III-D), the second sweep of a map and doubtful fits included.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "cloud/preprocess.hpp"
+#include "geometry/pose_derivative.hpp"
+#include "odometry/initial_pose.hpp"
+#include "odometry/motion_tracker.hpp"
+#include "odometry/sweep_map.hpp"
+#include "registration/adaptive_icp.hpp"
+#include "rilo/odometry/odometry_config.hpp"
+
+namespace rilo {
+
+/// A sweep as registered, before it is judged.
+struct Registration {
+  IcpResult icp;
+  SE3 T_init = SE3::Identity();  ///< initial pose of the registration that was kept
+  std::optional<LocalMap> map;   ///< second sweep of a map: the first one, compensated with the velocity found
+  double score = 0;              ///< map score at the registered pose
+};
+
+/// Registers one sweep; refers to the state of the odometry, which outlives it.
+class RegistrationStage {
+ public:
+  /// Parts of the odometry that the registration reads.
+  struct Parts {
+    const OdometryConfig& config;
+    const PreparedSweep& prepared;
+    const MotionTracker& tracker;
+    const SweepMap& map;
+    InitialPoseStage& initial_pose;
+    const PoseDerivative& pose_by_elevation;
+    double sigma_th_m;
+    double period_s;                         ///< usual time between sweeps
+    const std::function<bool()>& time_left;  ///< asked before each further registration
+  };
+  explicit RegistrationStage(const Parts& parts) : parts_(parts) {}
+
+  Registration run(const MotionState& predicted, const InitialPose& init) const;
+
+ private:
+  Registration from(const MotionState& start, const MotionPrior& prior) const;
+  Registration second_sweep(const MotionState& initial, const MotionPrior& first_prior) const;
+  void try_places_on_path(const MotionState& predicted, Registration& found) const;
+
+  Parts parts_;
+};
+
+}  // namespace rilo

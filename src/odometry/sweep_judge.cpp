@@ -1,0 +1,25 @@
+#include "odometry/sweep_judge.hpp"
+
+namespace rilo {
+
+namespace {
+constexpr std::size_t kYoungSweeps = 5;  // a map of fewer explains less of a sweep than usual
+constexpr double kShrunk = 1.0 / 3.0;    // of the last median range: doors and passing lorries take less at once
+}  // namespace
+
+Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& registration, MotionVerdict motion,
+                            const JudgedAgainst& before) const {
+  Evidence evidence;
+  evidence.source_points = prepared.source.size();
+  evidence.score = registration.score;
+  evidence.second_sweep = before.map_sweeps == 1;
+  evidence.young_map = before.map_sweeps > 1 && before.map_sweeps < kYoungSweeps;
+  evidence.usual_score = before.usual_score;
+  evidence.was_lost = before.was_lost;
+  evidence.shrunk = prepared.median_range_m < kShrunk * median_range_m_;
+  evidence.possible_motion = motion != MotionVerdict::kImpossible;
+  return {rilo::judge(registration.icp, evidence, config_), motion,
+          rilo::fits_map(registration.icp, evidence, config_)};
+}
+
+}  // namespace rilo

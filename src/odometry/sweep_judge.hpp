@@ -1,0 +1,51 @@
+// The status of registered sweeps, and when a map that no longer fits is given up.
+#pragma once
+
+#include <cstddef>
+
+#include "odometry/health.hpp"
+#include "odometry/motion_tracker.hpp"
+#include "odometry/registration_stage.hpp"
+#include "rilo/odometry/odometry_config.hpp"
+
+namespace rilo {
+
+/// What is known of the sweeps before the one that is judged.
+struct JudgedAgainst {
+  std::size_t map_sweeps = 0;  ///< sweeps in the map
+  double usual_score = 0;      ///< map score of the sweeps before
+  bool was_lost = false;       ///< the sweep before was lost
+};
+
+/// Verdict on one registered sweep.
+struct Judgement {
+  OdometryStatus status = OdometryStatus::kLost;
+  MotionVerdict motion = MotionVerdict::kPossible;
+  bool fits_map = false;  ///< true with kLost: the pose would be right if the motion to it were possible
+};
+
+class SweepJudge {
+ public:
+  explicit SweepJudge(const HealthConfig& config) : config_(config) {}
+
+  Judgement judge(const PreparedSweep& prepared, const Registration& registration, MotionVerdict motion,
+                  const JudgedAgainst& before) const;
+
+  /// The sweep goes into the map, or begins one.
+  void accept(const PreparedSweep& prepared) {
+    median_range_m_ = prepared.median_range_m;
+    lost_in_a_row_ = 0;
+  }
+  /// Counts a lost sweep. True when the map has not fitted for too long; one that is not `established` may itself be
+  /// the wrong one and is given up at once.
+  bool give_up(bool established) { return ++lost_in_a_row_ >= (established ? config_.restart_after : 1); }
+
+  void reset() { *this = SweepJudge(config_); }
+
+ private:
+  HealthConfig config_;
+  double median_range_m_ = 0;  // of the last sweep in the map
+  int lost_in_a_row_ = 0;
+};
+
+}  // namespace rilo

@@ -1,0 +1,99 @@
+// Point-to-plane adaptive ICP from a sweep to the local map (III-D, Algorithm 2).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cloud/timed_cloud.hpp"
+#include "map/local_map.hpp"
+#include "registration/degeneracy.hpp"
+#include "registration/normal_equations.hpp"
+#include "rilo/geometry/se3.hpp"
+#include "rilo/registration/registration_config.hpp"
+
+namespace rilo {
+
+/// Pose and velocity of the sensor at the reference time of a sweep.
+struct MotionState {
+  SE3 T_odom_lidar = SE3::Identity();
+  Vector6d twist = Vector6d::Zero();  ///< body velocity [rad/s; m/s]
+};
+
+/// Prior knowledge of the state. Perturbations: rotation and translation of the sensor
+/// about its own origin along the axes of the odometry frame, then their rates.
+struct MotionPrior {
+  MotionState state;
+  Matrix12d information = Matrix12d::Zero();  ///< zero: none
+};
+
+/// Why the registration ended.
+enum class IcpTermination : std::uint8_t {
+  kConverged,       ///< the last update was below the thresholds
+  kIterationLimit,  ///< it was not, after as many iterations as are allowed
+  kSingular,        ///< too few correspondences, or a singular system
+};
+
+/// Result of the registration.
+struct IcpResult {
+  MotionState state;
+  IcpTermination termination = IcpTermination::kIterationLimit;
+  int iterations = 0;
+  bool frozen = false;  ///< points were held to their correspondences for it to converge
+  std::size_t inliers = 0;
+  double residual_rms_m = 0;
+  Matrix6d lidar_information = Matrix6d::Zero();        ///< of the pose, sweep alone, same perturbation as MotionPrior
+  Matrix12d sweep_information = Matrix12d::Zero();      ///< of pose and velocity, sweep alone, weak directions faded
+  Matrix12d posterior_information = Matrix12d::Zero();  ///< the same and the prior's
+  PoseDegeneracy degeneracy;
+
+  bool converged() const { return termination == IcpTermination::kConverged; }
+};
+
+/// Correspondences of one source cloud in one state of the map, kept from one iteration to the next: a point that stays
+/// in its finest voxel keeps its plane.
+class PlaneMatches {
+ public:
+  /// linearise() below, with the correspondences kept for the same source and map.
+  NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
+                            const AdaptiveIcpConfig& config, std::size_t stride);
+
+  /// From now on every point keeps its last correspondence, wherever it moves.
+  void freeze() { frozen_ = true; }
+
+  /// What errors of the normals alone add to the Hessian of the pose, on average: directions in which the Hessian is
+  /// not larger are not observed, whatever its eigenvalues.
+  const Matrix6d& normal_noise() const { return normal_noise_; }
+
+ private:
+  struct Match {
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+    float weight = 0.0F;
+    double distance_m = 0;  // of the plane from the origin along its normal
+    PlaneSpot spot;         // empty: no correspondence
+    VoxelIndex voxel;       // the finest one, that of the point when it was looked up
+    bool looked_up = false;
+  };
+  /// Finds the correspondences of those of the points `first`, `first` + 1, … of the strided cloud meet that have left
+  /// their voxel.
+  void look_up(const LocalMap& map, std::size_t first, std::span<const Eigen::Vector3d> world, std::size_t stride);
+
+  std::vector<Match> matches_;  // of all points
+  bool frozen_ = false;
+  Matrix6d normal_noise_ = Matrix6d::Zero();
+};
+
+/// Residuals and Jacobians of `source` against the planes of `map` at `state`, with the Cauchy weight of σ_th (eq.
+/// β_k), summed. The pose is perturbed as described at MotionPrior. Only every `stride`-th point is used.
+NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
+                          const AdaptiveIcpConfig& config, std::size_t stride = 1);
+
+/// Moves `state` by the perturbation [rotation; translation; their rates].
+MotionState perturbed(const MotionState& state, const Vector12d& delta);
+
+/// Aligns `source` with `map` from `initial`, weights from `sigma_th_m`.
+IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial,
+                       const MotionPrior& prior, double sigma_th_m, const AdaptiveIcpConfig& config);
+
+}  // namespace rilo

@@ -1,0 +1,243 @@
+// From raw sweeps to the two clouds of the pipeline.
+#include "cloud/preprocess.hpp"
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "geometry/voxel_key.hpp"
+
+namespace rilo {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kTiny = std::numeric_limits<float>::denorm_min();
+
+/// Points on the walls, the floor and the ceiling of a box around the sensor.
+Sweep room(float width_m, float height_m, std::size_t count, unsigned seed) {
+  std::mt19937 rng(seed);
+  std::uniform_real_distribution<float> unit(-0.5F, 0.5F);
+  const float wall = width_m * height_m;
+  const float floor = width_m * width_m;
+  std::discrete_distribution<int> face({wall, wall, wall, wall, floor, floor});
+  Sweep sweep;
+  while (sweep.points.size() < count) {
+    const int f = face(rng);
+    Eigen::Vector3f p(unit(rng), unit(rng), unit(rng));
+    p[f / 2] = f % 2 == 0 ? 0.4999F : -0.4999F;
+    sweep.points.push_back(p.cwiseProduct(Eigen::Vector3f(width_m, width_m, height_m)));
+  }
+  return sweep;
+}
+
+PreprocessConfig wide_config() {
+  PreprocessConfig config;
+  config.source_points = 3000;
+  config.min_voxel_m = 0.02;
+  config.max_voxel_m = 5.0;
+  return config;
+}
+
+Sweep timed(std::vector<Eigen::Vector3f> points, std::vector<float> times_s) {
+  Sweep sweep;
+  sweep.stamp_ns = 1'000'000'000;
+  sweep.points = std::move(points);
+  sweep.times_s = std::move(times_s);
+  return sweep;
+}
+
+TEST(PreprocessTest, DropsWhatIsNotFiniteOrOutOfRange) {
+  Sweep sweep;
+  sweep.points = {{1.0F, 0.0F, 0.0F},   {kNan, 0.0F, 0.0F},    {0.0F, kInf, 0.0F},   {0.0F, 0.0F, -kInf},
+                  {0.0F, 0.0F, 0.0F},   {0.4F, 0.0F, 0.0F},    {0.5F, 0.0F, 0.0F},   {0.0F, 100.0F, 0.0F},
+                  {0.0F, 100.1F, 0.0F}, {kTiny, kTiny, kTiny}, {3e38F, 3e38F, 0.0F}, {kNan, kNan, kNan}};
+  Preprocessor preprocessor{PreprocessConfig{}};
+  const PreparedSweep& prepared = preprocessor.prepare(sweep);
+  EXPECT_EQ(prepared.valid_points, 3U);  // both limits belong to the range
+  for (const Eigen::Vector3f& p : prepared.map_cloud.points) {
+    EXPECT_TRUE(p.allFinite());
+  }
+  EXPECT_FALSE(prepared.source.timed());
+}
+
+TEST(PreprocessTest, EmptySweepAndOutOfRangeSweep) {
+  Preprocessor preprocessor{PreprocessConfig{}};
+  Sweep sweep;
+  sweep.stamp_ns = 42;
+  EXPECT_EQ(preprocessor.prepare(sweep).valid_points, 0U);
+  sweep.points.assign(100, Eigen::Vector3f(500.0F, 0.0F, 0.0F));
+  sweep.times_s.assign(100, 0.1F);
+  const PreparedSweep& prepared = preprocessor.prepare(sweep);
+  EXPECT_EQ(prepared.valid_points, 0U);
+  EXPECT_EQ(prepared.source.size(), 0U);
+  EXPECT_EQ(prepared.map_cloud.size(), 0U);
+  EXPECT_EQ(prepared.mid_stamp_ns, 42);
+  EXPECT_EQ(prepared.scene_range_m, 0.0);
+}
+
+TEST(PreprocessTest, AnEmptySweepBetweenLeavesNothingBehind) {
+  Preprocessor preprocessor{wide_config()};
+  const double scene = preprocessor.prepare(room(20.0F, 5.0F, 20000, 1)).scene_range_m;
+  const PreparedSweep& empty = preprocessor.prepare(Sweep{});
+  EXPECT_EQ(empty.source.size(), 0U);
+  EXPECT_EQ(empty.map_cloud.size(), 0U);
+  EXPECT_EQ(empty.scene_range_m, scene);
+}
+
+TEST(PreprocessTest, AnEmptyFirstSweepDoesNotSpoilTheSecond) {
+  const Sweep sweep = room(3.0F, 3.0F, 50000, 1);
+  Preprocessor fresh{wide_config()};
+  Preprocessor after_empty{wide_config()};
+  after_empty.prepare(Sweep{});
+  EXPECT_EQ(after_empty.prepare(sweep).source.points, fresh.prepare(sweep).source.points);
+}
+
+TEST(PreprocessTest, OnePoint) {
+  Preprocessor preprocessor{PreprocessConfig{}};
+  for (int i = 0; i < 5; ++i) {
+    const PreparedSweep& prepared = preprocessor.prepare(timed({{3.0F, 4.0F, 0.0F}}, {0.02F}));
+    EXPECT_EQ(prepared.source.size(), 1U);
+    EXPECT_EQ(prepared.map_cloud.size(), 1U);
+    EXPECT_NEAR(prepared.scene_range_m, 5.0, 1e-6);
+    EXPECT_EQ(prepared.source.offsets_s, std::vector<float>{0.0F});
+    EXPECT_NEAR(static_cast<double>(prepared.mid_stamp_ns), 1.02e9, 10.0);
+  }
+}
+
+TEST(PreprocessTest, TimesCountFromTheMiddleOfTheSweep) {
+  Preprocessor preprocessor{PreprocessConfig{}};
+  const PreparedSweep& prepared =
+      preprocessor.prepare(timed({{5, 0, 0}, {0, 5, 0}, {0, 0, 5}, {-5, 0, 0}}, {0.0F, 0.1F, kNan, 0.025F}));
+  EXPECT_EQ(prepared.valid_points, 3U);  // a point without an instant cannot be compensated
+  EXPECT_NEAR(static_cast<double>(prepared.mid_stamp_ns), 1.05e9, 10.0);
+  ASSERT_EQ(prepared.source.size(), 3U);
+  EXPECT_NEAR(prepared.source.offsets_s[0], -0.05F, 1e-7F);
+  EXPECT_NEAR(prepared.source.offsets_s[1], 0.05F, 1e-7F);
+  EXPECT_NEAR(prepared.source.offsets_s[2], -0.025F, 1e-7F);
+}
+
+TEST(PreprocessTest, AnInstantOfADroppedPointDoesNotCount) {
+  Preprocessor preprocessor{PreprocessConfig{}};
+  const PreparedSweep& prepared =
+      preprocessor.prepare(timed({{5, 0, 0}, {0, 5, 0}, {kNan, 0, 5}, {500, 0, 0}}, {0.0F, 0.1F, 7.0F, kInf}));
+  EXPECT_NEAR(static_cast<double>(prepared.mid_stamp_ns), 1.05e9, 10.0);
+}
+
+TEST(PreprocessTest, JitterOfTheSpanKeepsTheReferenceInstant) {
+  Preprocessor preprocessor{PreprocessConfig{}};
+  const std::vector<Eigen::Vector3f> points = {{5, 0, 0}, {0, 5, 0}, {0, 0, 5}};
+  const std::int64_t mid_ns = preprocessor.prepare(timed(points, {0.0F, 0.05F, 0.1F})).mid_stamp_ns;
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<float> jitter(0.0F, 0.01F);
+  for (int i = 0; i < 50; ++i) {
+    const Sweep sweep = timed(points, {jitter(rng), 0.05F, 0.1F - jitter(rng)});
+    const PreparedSweep& prepared = preprocessor.prepare(sweep);
+    EXPECT_EQ(prepared.mid_stamp_ns, mid_ns);
+    EXPECT_NEAR(prepared.source.offsets_s[1], 0.0F, 1e-7F);
+  }
+  preprocessor.reset();
+  EXPECT_NE(preprocessor.prepare(timed(points, {0.0F, 0.05F, 0.08F})).mid_stamp_ns, mid_ns);
+}
+
+TEST(PreprocessTest, TimesAreIgnoredWhenAskedToOrOfTheWrongLength) {
+  PreprocessConfig config;
+  config.deskew = false;
+  Preprocessor off{config};
+  const PreparedSweep& ignored = off.prepare(timed({{5, 0, 0}, {0, 5, 0}}, {0.0F, kNan}));
+  EXPECT_FALSE(ignored.source.timed());
+  EXPECT_EQ(ignored.valid_points, 2U);
+  EXPECT_EQ(ignored.mid_stamp_ns, 1'000'000'000);
+  Preprocessor on{PreprocessConfig{}};
+  EXPECT_FALSE(on.prepare(timed({{5, 0, 0}, {0, 5, 0}}, {0.1F})).source.timed());
+}
+
+TEST(PreprocessTest, TheVoxelFindsTheWantedNumberOfPoints) {
+  struct Place {
+    float width_m;
+    float height_m;
+  };
+  for (const Place& place : {Place{3.0F, 3.0F}, Place{60.0F, 6.0F}}) {
+    Preprocessor preprocessor{wide_config()};
+    const Sweep sweep = room(place.width_m, place.height_m, 100000, 5);
+    SCOPED_TRACE(testing::Message() << "room of " << place.width_m << " m");
+    const auto first = static_cast<double>(preprocessor.prepare(sweep).source.size());
+    EXPECT_NEAR(first, 3000.0, 450.0);
+    for (int i = 0; i < 4; ++i) {
+      preprocessor.prepare(sweep);
+    }
+    const PreparedSweep& settled = preprocessor.prepare(sweep);
+    EXPECT_NEAR(static_cast<double>(settled.source.size()), 3000.0, 450.0);
+    EXPECT_GT(settled.map_cloud.size(), settled.source.size());
+  }
+}
+
+TEST(PreprocessTest, TheVoxelKeepsWithinItsLimits) {
+  PreprocessConfig config = wide_config();
+  config.min_voxel_m = 0.5;
+  config.max_voxel_m = 0.5;
+  Preprocessor preprocessor{config};
+  const Sweep sweep = room(20.0F, 5.0F, 30000, 6);
+  std::set<std::uint64_t> map_voxels;
+  for (const Eigen::Vector3f& p : sweep.points) {
+    map_voxels.insert(voxel_key(voxel_of(p, 1.0 / (0.6 * 0.5))));
+  }
+  for (int i = 0; i < 3; ++i) {
+    const PreparedSweep& prepared = preprocessor.prepare(sweep);
+    EXPECT_EQ(prepared.map_cloud.size(), map_voxels.size());
+    std::set<std::uint64_t> source_voxels;
+    for (const Eigen::Vector3f& p : prepared.source.points) {
+      EXPECT_TRUE(source_voxels.insert(voxel_key(voxel_of(p, 2.0))).second);
+    }
+  }
+}
+
+TEST(PreprocessTest, BothCloudsKeepCentreAndMeanTimeOfTheSweep) {
+  Sweep sweep = room(20.0F, 5.0F, 20000, 7);
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    sweep.times_s.push_back(1e-5F * static_cast<float>(i % 10000));
+    centre += sweep.points[i].cast<double>() / static_cast<double>(sweep.points.size());
+  }
+  Preprocessor preprocessor{wide_config()};
+  const PreparedSweep& prepared = preprocessor.prepare(sweep);
+  for (const TimedCloud* cloud : {&prepared.source, &prepared.map_cloud}) {
+    ASSERT_EQ(cloud->offsets_s.size(), cloud->size());
+    ASSERT_EQ(cloud->counts.size(), cloud->size());
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double offsets = 0.0;
+    double points = 0.0;
+    for (std::size_t i = 0; i < cloud->size(); ++i) {
+      const auto count = static_cast<double>(cloud->counts[i]);
+      sum += count * cloud->points[i].cast<double>();
+      offsets += count * static_cast<double>(cloud->offsets_s[i]);
+      points += count;
+    }
+    EXPECT_EQ(points, 20000.0);
+    EXPECT_LT((sum / points - centre).norm(), 1e-5);
+    EXPECT_NEAR(offsets / points, 0.0, 1e-6);
+  }
+}
+
+TEST(PreprocessTest, SceneRangeIsTheSmoothedMedianRange) {
+  Preprocessor preprocessor{PreprocessConfig{}};
+  Sweep near;
+  near.points = {{2, 0, 0}, {0, 10, 0}, {0, 0, 90}};
+  Sweep far;
+  far.points = {{20, 0, 0}, {0, 30, 0}, {0, 0, 90}};
+  EXPECT_NEAR(preprocessor.prepare(near).scene_range_m, 10.0, 1e-5);
+  EXPECT_NEAR(preprocessor.prepare(far).scene_range_m, 12.0, 1e-5);  // a tenth of the way to 30 m
+  for (int i = 0; i < 200; ++i) {
+    preprocessor.prepare(far);
+  }
+  EXPECT_NEAR(preprocessor.prepare(far).scene_range_m, 30.0, 1e-3);
+  preprocessor.reset();
+  EXPECT_NEAR(preprocessor.prepare(near).scene_range_m, 10.0, 1e-5);
+}
+
+}  // namespace
+}  // namespace rilo

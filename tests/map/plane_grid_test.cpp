@@ -1,0 +1,186 @@
+// One level of the map: planes and look-up across faces.
+#include "map/plane_grid.hpp"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "map/plane_points.hpp"
+
+namespace rilo {
+namespace {
+
+using test::insert_plane;
+using test::kCriteria;
+
+TEST(PlaneGridTest, EmptyGridHasNothing) {
+  PlaneGrid grid(1.0, kCriteria);
+  MapPlane plane;
+  EXPECT_EQ(grid.size(), 0U);
+  EXPECT_EQ(grid.voxel_m(), 1.0);
+  EXPECT_FALSE(grid.find({0.5, 0.5, 0.5}, plane));
+  EXPECT_FALSE(grid.occupied({0.5, 0.5, 0.5}));
+  grid.evict(Eigen::Vector3d::Zero(), 1.0);
+  grid.refit();
+  std::vector<Eigen::Vector3f> out;
+  grid.centroids(out);
+  EXPECT_TRUE(out.empty());
+}
+
+TEST(PlaneGridTest, ExactPlanes) {
+  std::mt19937 rng(1);
+  std::normal_distribution<double> normal;
+  for (unsigned i = 0; i < 100; ++i) {
+    const Eigen::Vector3d n = Eigen::Vector3d(normal(rng), normal(rng), normal(rng)).normalized();
+    const Eigen::Vector3d centre(-7.5, 1000.5, 3.5);
+    PlaneGrid grid(1.0, kCriteria);
+    insert_plane(grid, centre, n, 50, 0.0, i);
+    grid.refit();
+    MapPlane plane;
+    ASSERT_TRUE(grid.find(centre, plane));
+    EXPECT_GT(std::abs(plane.normal.dot(n)), 1.0 - 1e-6);
+    EXPECT_NEAR(plane.normal.norm(), 1.0, 1e-6);
+    EXPECT_NEAR((plane.point - centre).dot(n), 0.0, 1e-5);
+    EXPECT_LT(plane.thickness_m, 1e-3F);
+  }
+}
+
+TEST(PlaneGridTest, TheScatterOfTheNormalIsWhatItsCovarianceSays) {
+  constexpr int kTrials = 2000;
+  constexpr double kNoise = 0.01;
+  const Eigen::Vector3d n = Eigen::Vector3d::UnitZ();
+  Eigen::Matrix3d seen = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d said = Eigen::Matrix3d::Zero();
+  std::mt19937 rng(5);
+  std::uniform_real_distribution<double> side(-0.5, 0.5);
+  std::normal_distribution<double> noise(0.0, kNoise);
+  for (int trial = 0; trial < kTrials; ++trial) {
+    PlaneGrid grid(1.0, PlaneCriteria{6, 100, 0.2, 0.01});
+    for (int i = 0; i < 20; ++i) {  // long along x, narrow along y
+      grid.insert({0.5 + 0.9 * side(rng), 0.5 + 0.2 * side(rng), 0.5 + noise(rng)});
+    }
+    grid.refit();
+    PlaneSpot spot;
+    ASSERT_TRUE(grid.locate({0.5, 0.5, 0.5}, spot));
+    MapPlane plane = grid.plane_at(spot);
+    const Eigen::Vector3d error = (plane.normal.z() < 0.0 ? -1.0 : 1.0) * plane.normal - n;
+    seen += error * error.transpose() / kTrials;
+    said += grid.normal_covariance_at(spot) / kTrials;
+  }
+  EXPECT_NEAR(said(0, 0) / seen(0, 0), 1.0, 0.25);
+  EXPECT_NEAR(said(1, 1) / seen(1, 1), 1.0, 0.25);
+  EXPECT_GT(said(1, 1), 10.0 * said(0, 0));
+}
+
+TEST(PlaneGridTest, NoisyPlaneHasItsThickness) {
+  constexpr double kNoise = 0.02;
+  PlaneGrid grid(1.0, PlaneCriteria{6, 2000, 0.1, 0.05});
+  const Eigen::Vector3d n = Eigen::Vector3d(1.0, 2.0, -0.5).normalized();
+  insert_plane(grid, {0.5, 0.5, 0.5}, n, 2000, kNoise, 2);
+  grid.refit();
+  MapPlane plane;
+  ASSERT_TRUE(grid.find({0.5, 0.5, 0.5}, plane));
+  EXPECT_NEAR(plane.thickness_m, kNoise, 0.002);
+  EXPECT_GT(std::abs(plane.normal.dot(n)), std::cos(0.02));
+  EXPECT_NEAR((plane.point - Eigen::Vector3d(0.5, 0.5, 0.5)).dot(n), 0.0, 0.002);
+}
+
+TEST(PlaneGridTest, LinesClumpsAndVolumesAreNoPlanes) {
+  PlaneGrid grid(1.0, kCriteria);
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> unit(0.05, 0.95);
+  for (int i = 0; i < 50; ++i) {
+    const double s = unit(rng);
+    grid.insert({s, 0.3 + 0.2 * s, 0.5});                                 // collinear
+    grid.insert({5.5, 0.5, 0.5});                                         // one place
+    grid.insert({10.0 + unit(rng), unit(rng), unit(rng)});                // volume
+    grid.insert({15.5 + 0.04 * unit(rng), 0.5 + 0.04 * unit(rng), 0.5});  // flat, too small to have a direction
+  }
+  grid.refit();
+  MapPlane plane;
+  for (const double x : {0.5, 5.5, 10.5, 15.5}) {
+    EXPECT_TRUE(grid.occupied({x, 0.5, 0.5})) << x;
+    EXPECT_FALSE(grid.find({x, 0.5, 0.5}, plane)) << x;
+  }
+}
+
+TEST(PlaneGridTest, TooFewPointsAreNoPlaneAndPlanesNeedARefit) {
+  PlaneGrid grid(1.0, kCriteria);
+  const Eigen::Vector3d centre(0.5, 0.5, 0.5);
+  MapPlane plane;
+  insert_plane(grid, centre, Eigen::Vector3d::UnitZ(), 5, 0.0, 4);
+  grid.refit();
+  EXPECT_FALSE(grid.find(centre, plane));
+  insert_plane(grid, centre, Eigen::Vector3d::UnitZ(), 1, 0.0, 5);
+  EXPECT_FALSE(grid.find(centre, plane));
+  grid.refit();
+  EXPECT_TRUE(grid.find(centre, plane));
+}
+
+TEST(PlaneGridTest, AFullVoxelTakesNoMore) {
+  PlaneGrid grid(1.0, PlaneCriteria{6, 20, 0.1, 0.05});
+  const Eigen::Vector3d centre(0.5, 0.5, 0.5);
+  insert_plane(grid, centre, Eigen::Vector3d::UnitZ(), 20, 0.0, 6);
+  std::vector<Eigen::Vector3f> before;
+  grid.centroids(before);
+  insert_plane(grid, {0.5, 0.5, 0.9}, Eigen::Vector3d::UnitZ(), 500, 0.0, 7);
+  grid.refit();
+  std::vector<Eigen::Vector3f> after;
+  grid.centroids(after);
+  EXPECT_EQ(before, after);
+  MapPlane plane;
+  ASSERT_TRUE(grid.find(centre, plane));
+  EXPECT_NEAR(plane.point.z(), 0.5, 1e-6);
+}
+
+TEST(PlaneGridTest, RefitFollowsTheEvidenceAndDropsAPlaneThatWasNone) {
+  PlaneGrid grid(1.0, kCriteria);
+  const Eigen::Vector3d centre(0.5, 0.5, 0.5);
+  insert_plane(grid, centre, Eigen::Vector3d::UnitZ(), 10, 0.0, 8);
+  grid.refit();
+  MapPlane plane;
+  ASSERT_TRUE(grid.find(centre, plane));
+  std::mt19937 rng(9);
+  std::uniform_real_distribution<double> unit(0.05, 0.95);
+  for (int i = 0; i < 80; ++i) {
+    grid.insert({unit(rng), unit(rng), unit(rng)});
+  }
+  grid.refit();
+  EXPECT_FALSE(grid.find(centre, plane));
+}
+
+TEST(PlaneGridTest, AWallOnAFaceIsFoundFromBothSides) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double wall : {-2.0, 0.0, 3.0}) {
+      Eigen::Vector3d centre = Eigen::Vector3d::Constant(0.5);
+      centre[axis] = wall;  // exactly on the face
+      PlaneGrid grid(1.0, kCriteria);
+      insert_plane(grid, centre, Eigen::Vector3d::Unit(axis), 50, 0.0, 10);
+      grid.refit();
+      for (const double off : {-0.19, -0.01, -1e-9, 0.0, 1e-9, 0.01, 0.19}) {
+        MapPlane plane;
+        ASSERT_TRUE(grid.find(centre + off * Eigen::Vector3d::Unit(axis), plane)) << axis << ' ' << wall << ' ' << off;
+        EXPECT_NEAR(plane.point[axis], wall, 1e-6);
+        EXPECT_NEAR(std::abs(plane.normal[axis]), 1.0, 1e-6);
+      }
+      MapPlane plane;
+      EXPECT_FALSE(grid.find(centre - 0.35 * Eigen::Vector3d::Unit(axis), plane));
+    }
+  }
+}
+
+TEST(PlaneGridTest, TheFallbackIsTheNearestFaceOnly) {
+  PlaneGrid grid(1.0, kCriteria);
+  insert_plane(grid, {0.5, 0.5, 0.5}, Eigen::Vector3d::UnitZ(), 50, 0.0, 11);
+  grid.refit();
+  MapPlane plane;
+  EXPECT_TRUE(grid.find({1.1, 0.5, 0.5}, plane));
+  EXPECT_TRUE(grid.find({0.5, -0.1, 0.5}, plane));
+  EXPECT_FALSE(grid.find({1.1, 0.05, 0.5}, plane));  // nearer to the face at y = 0
+  EXPECT_FALSE(grid.find({1.1, 1.1, 0.5}, plane));   // across an edge
+}
+
+}  // namespace
+}  // namespace rilo

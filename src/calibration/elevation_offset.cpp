@@ -21,9 +21,8 @@ constexpr std::size_t kLeastBlocks = 3;     // for a standard deviation
 constexpr double kResponse = 0.65;
 // Error common to all residuals of a surface, whatever their number: errors of single beams, rounded edges.
 constexpr double kSystematicM = 0.002;
-// Share of `significance` below which a correction is taken back: with 3, within one standard deviation of nothing
-// correcting is expected to leave a larger error than not correcting.
-constexpr double kTakeBack = 1.0 / 3.0;
+// A correction of less standard deviations than this is taken back: it is expected to leave a larger error than none.
+constexpr double kTakeBack = 1.0;
 
 /// Sums of the mixed terms of δ with pose and velocity, and of δ alone.
 struct Sums {
@@ -158,7 +157,7 @@ double ElevationOffsetEstimator::advance() {
     return 0.0;
   }
   const double estimate = offset_rad();
-  const double target = std::abs(estimate) > kTakeBack * config_.significance * sigma_rad() ? estimate : 0.0;
+  const double target = std::abs(estimate) > kTakeBack * sigma_rad() ? estimate : 0.0;
   const double step = config_.step_deg * kRadPerDeg;
   const double change = std::clamp(target - applied_rad_, -step, step);
   applied_rad_ += change;

@@ -15,9 +15,13 @@ double model_deviation_m(const SE3& T_init, const SE3& T_new, const AdaptiveThre
   return config.rotation_scale_m * std::tanh(config.rotation_gain * rotation_angle_rad(D)) + D.translation().norm();
 }
 
-double AdaptiveThreshold::sigma_th_m() const {
+double AdaptiveThreshold::sigma_th_m() const { return within_bounds(widening_); }
+
+double AdaptiveThreshold::usual_sigma_th_m() const { return within_bounds(1.0); }
+
+double AdaptiveThreshold::within_bounds(double widening) const {
   const double sigma = weight_ > 0.0 ? std::sqrt(weighted_squares_ / weight_) : config_.initial_m;
-  return std::clamp(sigma * widening_, config_.floor_m, config_.ceiling_m);
+  return std::clamp(sigma * widening, config_.floor_m, config_.ceiling_m);
 }
 
 void AdaptiveThreshold::update(const SE3& T_init, const SE3& T_new, const Eigen::Vector3d& acceleration) {

@@ -13,6 +13,8 @@ class AdaptiveThreshold {
 
   /// σ_th (m) for the next sweep, within floor and ceiling.
   double sigma_th_m() const;
+  /// The same (m) without the growth after failures.
+  double usual_sigma_th_m() const;
 
   /// Learns from a registered sweep.
   /// @param T_init,T_new initial and registered pose.
@@ -28,6 +30,8 @@ class AdaptiveThreshold {
   double deviation_m() const { return deviation_m_; }  ///< e_i of the last update
 
  private:
+  double within_bounds(double widening) const;
+
   AdaptiveThresholdConfig config_;
   Eigen::Vector3d last_acceleration_ = Eigen::Vector3d::Zero();
   double weighted_squares_ = 0;  // Σ γ e², past discounted

@@ -24,7 +24,7 @@ constexpr double kHalfSweepS = 0.05;
 // A sweep whose score over its residuals is below this share of the usual ratio may have been taken at another time
 // than its stamp: this many periods earlier or later, searched in steps of at most these.
 constexpr double kSuspicious = 0.8;
-constexpr double kPeriodsEarlier = 2.0;
+constexpr double kPeriodsEarlier = 8.0;
 constexpr double kPeriodsLater = 12.0;
 constexpr double kPathStepM = 0.3;
 constexpr double kPathStepRad = 0.05;

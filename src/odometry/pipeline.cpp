@@ -129,7 +129,7 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
   const double period_s = static_cast<double>(sweep_clock_.period_ns()) * 1e-9;
   const std::function<bool()> has_time = [&] { return time_left(); };
   const RegistrationStage stage({config_, prepared, tracker_, map_, initial_pose_, calibration_.pose_by_elevation(),
-                                 threshold_.sigma_th_m(), period_s, has_time});
+                                 threshold_.sigma_th_m(), threshold_.usual_sigma_th_m(), period_s, has_time});
   Registration registration = stage.run(predicted, init);
   const IcpResult& icp = registration.icp;
   record(icp, result.stats);

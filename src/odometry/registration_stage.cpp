@@ -3,10 +3,45 @@
 #include <algorithm>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
+
 namespace rilo {
 
 namespace {
 constexpr int kFirstSweepRounds = 3;  // each compensates the first sweep with the velocity of the round before
+// Starts of the second sweep along the direction that it constrains least. The basin of an optimum on a road is about
+// a metre wide, and three steps a sweep are 135 km/h.
+constexpr double kSecondStepM = 1.25;
+constexpr int kSecondSteps = 3;
+constexpr std::size_t kSecondStride = 8;  // which basin is the better one shows on a sample
+// Optima nearer than this are the same one: their scores differ by the sample of the score.
+constexpr double kSameOptimumM = 0.1;
+constexpr double kSameOptimumRad = 0.02;
+
+TimedCloud every(const TimedCloud& cloud, std::size_t stride) {
+  TimedCloud sample;
+  for (std::size_t i = 0; i < cloud.size(); i += stride) {
+    sample.points.push_back(cloud.points[i]);
+    if (cloud.timed()) {
+      sample.offsets_s.push_back(cloud.offsets_s[i]);
+    }
+    if (!cloud.counts.empty()) {
+      sample.counts.push_back(cloud.counts[i]);
+    }
+  }
+  return sample;
+}
+
+/// How well a registration fits: score over residual.
+double quality(const Registration& registration) { return registration.score / registration.icp.residual_rms_m; }
+
+/// Converged without points that had to be held.
+bool settled(const Registration& registration) { return registration.icp.converged() && !registration.icp.frozen; }
+
+bool same_optimum(const Registration& a, const Registration& b) {
+  const SE3 between = a.icp.state.T_odom_lidar.inverse() * b.icp.state.T_odom_lidar;
+  return between.translation().norm() <= kSameOptimumM && rotation_angle_rad(between) <= kSameOptimumRad;
+}
 }  // namespace
 
 Registration RegistrationStage::run(const MotionState& predicted, const InitialPose& init) const {
@@ -17,24 +52,44 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
     initial = {init.T_odom_lidar, parts_.tracker.implied_twist(init.T_odom_lidar)};
     refuted = initial;
   }
-  const MotionPrior prior = parts_.tracker.prior(refuted);
-  if (parts_.map.first_can_be_compensated()) {
-    return second_sweep(initial, prior);
-  }
-  Registration found = from(initial, prior);
-  if (parts_.initial_pose.suspicious(found.score, found.icp.residual_rms_m)) {
+  Registration found = from(initial, parts_.tracker.prior(refuted));
+  if (parts_.map.sweeps() == 1) {
+    if (const auto start = other_second_start(found)) {
+      try_from(*start, found);
+    }
+  } else if (parts_.initial_pose.suspicious(found.score, found.icp.residual_rms_m)) {
     try_places_on_path(predicted, found);
+  }
+  if (parts_.tracker.lost()) {
+    // What was found within a wide gate has to hold within the usual one.
+    const SE3 T_init = found.T_init;
+    found = to_map(found.icp.state, parts_.tracker.prior(found.icp.state), parts_.usual_sigma_th_m);
+    found.T_init = T_init;
   }
   return found;
 }
 
 Registration RegistrationStage::from(const MotionState& start, const MotionPrior& prior) const {
+  return parts_.map.first_can_be_compensated() ? second_sweep(start, prior) : to_map(start, prior, parts_.sigma_th_m);
+}
+
+Registration RegistrationStage::to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m) const {
   Registration found;
-  found.icp =
-      adaptive_icp(parts_.prepared.source, parts_.map.map(), start, prior, parts_.sigma_th_m, parts_.config.icp);
+  found.icp = adaptive_icp(parts_.prepared.source, parts_.map.map(), start, prior, sigma_th_m, parts_.config.icp);
   found.T_init = start.T_odom_lidar;
   found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, parts_.map.map());
   return found;
+}
+
+/// Registers from another start and keeps what ends elsewhere and fits clearly better, or settles where `found` did
+/// not.
+void RegistrationStage::try_from(const MotionState& start, Registration& found) const {
+  Registration other = from(start, parts_.tracker.prior(start));
+  const double margin = 1.0 + parts_.config.initial_pose.margin;
+  const bool settles = settled(other) && !settled(found) && quality(other) > quality(found);
+  if (settles || (!same_optimum(other, found) && quality(other) > margin * quality(found))) {
+    found = std::move(other);
+  }
 }
 
 /// Missing or reordered sweeps lie elsewhere on the path.
@@ -44,21 +99,44 @@ void RegistrationStage::try_places_on_path(const MotionState& predicted, Registr
     if (!parts_.time_left()) {
       return;
     }
+    try_from({place, parts_.tracker.implied_twist(place)}, found);
+  }
+}
+
+/// No motion is known at the second sweep, and along a road it has several optima: at rest, too, when most of what it
+/// sees runs along the road or drives with the sensor. Registers a sample of it from places along the direction that
+/// it constrains least; the best result that lies elsewhere than `found`.
+std::optional<MotionState> RegistrationStage::other_second_start(const Registration& found) const {
+  const TimedCloud sample = every(parts_.prepared.source, kSecondStride);
+  const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
+  const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
+  std::optional<Registration> best;
+  for (int k = -kSecondSteps; k <= kSecondSteps; ++k) {
+    SE3 place = parts_.tracker.trusted().T_odom_lidar;
+    place.translation() += k * kSecondStepM * weakest;
     const MotionState start{place, parts_.tracker.implied_twist(place)};
-    Registration other = from(start, parts_.tracker.prior(start));
-    if (other.score * found.icp.residual_rms_m >
-        (1.0 + parts_.config.initial_pose.margin) * found.score * other.icp.residual_rms_m) {
-      found = std::move(other);
+    const LocalMap map =
+        parts_.map.first_can_be_compensated()
+            ? parts_.map.first_compensated(start.twist, parts_.prepared.scene_range_m, parts_.pose_by_elevation)
+            : parts_.map.map();
+    Registration other;
+    other.icp = adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, parts_.config.icp);
+    other.score = parts_.initial_pose.score(parts_.prepared.source, other.icp.state, map);
+    const double apart_m =
+        (other.icp.state.T_odom_lidar.translation() - found.icp.state.T_odom_lidar.translation()).norm();
+    if (other.icp.converged() && apart_m > 0.5 * kSecondStepM && (!best || quality(other) > quality(*best))) {
+      best = std::move(other);
     }
   }
+  return best ? std::optional(best->icp.state) : std::nullopt;
 }
 
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the
 /// second one implies, which the registration refines.
-Registration RegistrationStage::second_sweep(const MotionState& initial, const MotionPrior& first_prior) const {
+Registration RegistrationStage::second_sweep(const MotionState& start, const MotionPrior& first_prior) const {
   Registration found;
-  found.icp.state = initial;
-  found.T_init = initial.T_odom_lidar;
+  found.icp.state = start;
+  found.T_init = start.T_odom_lidar;
   int iterations = 0;
   double sigma_m = parts_.sigma_th_m;
   for (int round = 0; round < kFirstSweepRounds; ++round) {

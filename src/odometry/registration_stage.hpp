@@ -34,6 +34,7 @@ class RegistrationStage {
     InitialPoseStage& initial_pose;
     const PoseDerivative& pose_by_elevation;
     double sigma_th_m;
+    double usual_sigma_th_m;                 ///< the same without the growth after failures
     double period_s;                         ///< usual time between sweeps
     const std::function<bool()>& time_left;  ///< asked before each further registration
   };
@@ -43,8 +44,11 @@ class RegistrationStage {
 
  private:
   Registration from(const MotionState& start, const MotionPrior& prior) const;
-  Registration second_sweep(const MotionState& initial, const MotionPrior& first_prior) const;
+  Registration to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m) const;
+  Registration second_sweep(const MotionState& start, const MotionPrior& first_prior) const;
+  void try_from(const MotionState& start, Registration& found) const;
   void try_places_on_path(const MotionState& predicted, Registration& found) const;
+  std::optional<MotionState> other_second_start(const Registration& found) const;
 
   Parts parts_;
 };

@@ -44,6 +44,7 @@ TEST(AdaptiveThreshold, ForgetsAndWidensAfterFailures) {
   EXPECT_NEAR(threshold.sigma_th_m(), sigma, 1e-12);
   threshold.widen();
   EXPECT_NEAR(threshold.sigma_th_m(), 2.0 * sigma, 1e-12);
+  EXPECT_NEAR(threshold.usual_sigma_th_m(), sigma, 1e-12);
   threshold.update(moved(0.0), moved(0.0), Eigen::Vector3d::Zero());
   EXPECT_LT(threshold.sigma_th_m(), sigma);
 }

@@ -114,6 +114,14 @@ TEST(Faults, SweepsSwapped) {
   EXPECT_EQ(wrong_poses(sweeps), 0U);
 }
 
+TEST(Faults, SweepsReversed) {
+  std::vector<Recorded> sweeps = drive();
+  for (std::size_t i = 0; i < 5; ++i) {
+    sweeps[kMiddle + i] = data_at(drive()[kMiddle + i], drive()[kMiddle + 4 - i]);
+  }
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+}
+
 TEST(Faults, OneStampAheadAndAClockThatWasSet) {
   std::vector<Recorded> sweeps = drive();
   sweeps[kMiddle].sweep.stamp_ns += 1'000'000'000'000;

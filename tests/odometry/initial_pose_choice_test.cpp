@@ -60,6 +60,10 @@ TEST(InitialPoseStage, ASweepIsFoundWhereItLiesOnThePath) {
   ASSERT_FALSE(places.empty());
   EXPECT_NEAR(places.front().translation().x(), 6.0, 0.15);  // half a step
   EXPECT_LE(places.size(), 3U);
+  predicted.T_odom_lidar.translation().x() = 12.0;  // six periods early: a piece of the path came in reversed order
+  const std::vector<SE3> behind = stage.places_on_path(source, predicted, 0.1, map);
+  ASSERT_FALSE(behind.empty());
+  EXPECT_NEAR(behind.front().translation().x(), 6.0, 0.15);
 }
 
 }  // namespace

@@ -72,7 +72,9 @@ void Pipeline::register_to_map(const PreparedSweep& prepared, SweepResult& resul
   } else if (judgement.fits_map) {
     lose(prepared, predicted, registration.icp.state.T_odom_lidar, result);
   } else {
-    lose(prepared, predicted, std::nullopt, result);
+    // What a second sweep found is not certain enough to vouch for; at rest, where it is predicted, it is less likely.
+    const bool found = map_.sweeps() == 1 && registration.icp.converged();
+    lose(prepared, found ? registration.icp.state : predicted, std::nullopt, result);
   }
   result.stats.times.map_ms = clock_.lap_ms();
 }

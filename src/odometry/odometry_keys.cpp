@@ -103,7 +103,7 @@ void add_threshold(KeyVisitor& keys, AdaptiveThresholdConfig& c) {
   keys.section("threshold", "Adaptive threshold sigma_th (III-C)");
   keys.real({"initial_m", "m", "sigma_th before any error is known", "III-C, without a value; not tuned"}, c.initial_m,
             0.001, 100);
-  keys.real({"floor_m", "m", "lower bound of sigma_th", kNotTuned}, c.floor_m, 0.001, 100);
+  keys.real({"floor_m", "m", "lower bound of sigma_th", "experiment: sigma_th at least 3 cm"}, c.floor_m, 0.001, 100);
   keys.real({"ceiling_m", "m", "upper bound of sigma_th; at least floor_m", kNotTuned}, c.ceiling_m, 0.001, 100);
   keys.real({"decay", "", "sigma_decay of the motion weight gamma", "III-C: 1.5"}, c.decay, 0.001, 1000);
   keys.real({"rotation_scale_m", "m", "sigma_max: largest share of the rotation in the error",

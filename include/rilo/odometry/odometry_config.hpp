@@ -47,7 +47,7 @@ struct InitialPoseConfig {
 /// Adaptive threshold σ_th (III-C).
 struct AdaptiveThresholdConfig {
   double initial_m = 0.3;  ///< σ_th before any error is known
-  double floor_m = 0.05;
+  double floor_m = 0.03;
   double ceiling_m = 2.0;
   double decay = 1.5;             ///< σ_decay of the motion weight γ
   double rotation_scale_m = 1.0;  ///< σ_max: largest share of the rotation in the error

@@ -22,6 +22,7 @@
 #include "results/run_record.hpp"
 #include "results/run_summary.hpp"
 #include "rilo/config/config_file.hpp"
+#include "rilo/io/io_error.hpp"
 #include "rilo/session/map_observer.hpp"
 #include "run_flags.hpp"
 #include "source_flags.hpp"
@@ -96,8 +97,10 @@ void observe_and_run(const RunFlags& flags, Session& session, PartialPoses& part
   MapObserver map(flags.map_voxel_m);
   MapPicture picture;
   std::optional<ViewFeed> feed;
+  Pace pace;
   const bool picture_wanted = flags.map.empty() && !flags.out.empty() && !flags.no_report;
   session.add(check);
+  if (flags.real_time) session.add(pace);
   session.add(partial);
   if (!flags.map.empty()) session.add(map);  // for the file; the report draws it, too
   if (picture_wanted) session.add(picture);
@@ -106,6 +109,22 @@ void observe_and_run(const RunFlags& flags, Session& session, PartialPoses& part
   take(session.run(), run);
   if (!flags.map.empty()) run.map = map.cloud(flags.map_normals);
   if (picture_wanted) run.map.points = picture.points();
+}
+
+/// A recording is read faster than the viewer takes its points: those that it missed.
+void show_the_rest(const RunFlags& flags, const RunRecord& run, LiveView& view) {
+  if (!flags.quiet) {
+    std::cerr << "rilo: done; the viewer stays at " << view.viewer().url() << " until Ctrl-C\n";
+  }
+  try {
+    const auto source = source_of(flags)();
+    source->skip(flags.start);
+    view.show_missing(*source, run);
+  } catch (const IoError& error) {
+    std::cerr << "rilo: warning: " << error.what() << '\n';
+  }
+  view.viewer().finish();
+  wait_for_signal();
 }
 
 /// A map without a folder belongs to the other results.
@@ -128,7 +147,6 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   const auto view = open_view(flags, session.source(), run.config);
   PartialPoses partial(flags.out);
   observe_and_run(flags, session, partial, view.get(), run);
-  if (view) view->viewer().finish();
   if (run.results.empty() && run.signal == 0) {
     partial.remove();
     throw RunError(kind_of(run.error_code), run.error);
@@ -141,10 +159,7 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
     }
   }
   const int exit_code = finish(flags, run, partial);
-  if (view && run.signal == 0) {
-    if (!flags.quiet) std::cerr << "rilo: done; the viewer stays at " << view->viewer().url() << " until Ctrl-C\n";
-    wait_for_signal();
-  }
+  if (view && run.signal == 0) show_the_rest(flags, run, *view);
   return exit_code;
 }
 
@@ -177,6 +192,7 @@ void add_flags(CLI::App& command, RunFlags& flags) {
       ->check(whole_number(1024));
   command.add_flag("--one-pass", flags.one_pass,
                    "single pass as in live operation: no restart with the estimated elevation offset");
+  command.add_flag("--real-time", flags.real_time, "no faster than the sweeps were recorded");
   command.add_flag("--quiet", flags.quiet, "no progress, no warnings, no summary");
   command.add_flag("--json", flags.json, "print metrics.json instead of the summary");
   command.add_flag("--no-report", flags.no_report, "do not write report.html");

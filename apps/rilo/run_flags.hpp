@@ -1,4 +1,4 @@
-// What the command line of `rilo run` says.
+// Options of `rilo run`.
 #pragma once
 
 #include <string>
@@ -12,10 +12,11 @@ namespace rilo::cli {
 struct RunFlags : RunRequest, OutputRequest {
   std::string config_file;
   std::vector<std::string> settings;
-  int threads = -1;  ///< -1: as the configuration says
+  int threads = -1;  ///< -1: as configured
   bool json = false;
   bool no_truth = false;
-  std::string view;  ///< --view: its port or "auto"; empty: no viewer
+  bool real_time = false;  ///< no faster than recorded
+  std::string view;        ///< --view: its port or "auto"; empty: no viewer
   ViewOptions view_options;
 };
 

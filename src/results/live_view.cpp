@@ -3,6 +3,7 @@
 #include <iostream>
 #include <utility>
 
+#include "console/interrupt.hpp"
 #include "console/text.hpp"
 #include "io/ground_truth.hpp"
 #include "rilo/io/io_error.hpp"
@@ -12,7 +13,7 @@ namespace rilo {
 
 namespace {
 
-// Says on standard error where to look, even in a quiet run: nobody could find it otherwise.
+// Prints the address on standard error, even in a quiet run: it cannot be found otherwise.
 std::unique_ptr<Viewer> open_viewer(const ViewInfo& info, const ViewOptions& options) {
   try {
     auto viewer = std::make_unique<Viewer>(info, options);
@@ -30,7 +31,7 @@ TruthTrack::TruthTrack(const std::filesystem::path& data) {
     auto truth = read_ground_truth(data, TruthInstant::kMid);
     if (truth) T_world_lidar_ = std::move(truth->T_world_lidar);
   } catch (const IoError&) {
-    // The run itself says what is wrong with it.
+    // The run itself reports what is wrong with it.
     T_world_lidar_.clear();
   }
 }
@@ -60,6 +61,24 @@ void LiveView::show(std::size_t index, const SweepResult& result, Sweep sweep) {
     viewer_->push(std::move(view));
   } else {
     viewer_->push_all(std::move(view));
+  }
+}
+
+void LiveView::show_missing(ScanSource& source, const RunRecord& run) {
+  for (const std::uint32_t number : viewer_->missing_points()) {
+    if (number >= run.indices.size()) break;
+    std::optional<Sweep> sweep;
+    do {
+      if (InterruptGuard::signal() != 0) return;
+      sweep = source.next();
+    } while (sweep && source.current_index() < run.indices[number]);
+    if (!sweep) return;
+    if (source.current_index() != run.indices[number]) continue;
+    ViewSweep view;
+    view.index = run.indices[number];
+    view.result = run.results[number];
+    view.sweep = std::move(*sweep);
+    viewer_->fill(number, std::move(view));
   }
 }
 

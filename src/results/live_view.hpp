@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "results/run_record.hpp"
 #include "rilo/cloud/sweep.hpp"
+#include "rilo/io/scan_source.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 #include "view/viewer.hpp"
 
@@ -35,13 +37,16 @@ class LiveView {
  public:
   /// @throws RunError, kUsage, when there is no viewer in this build, or it cannot be bound.
   LiveView(const ViewInfo& info, const ViewOptions& options, std::optional<TruthTrack> truth);
-  /// Says why the viewer ended early, if it did.
+  /// Reports why the viewer ended early, if it did.
   ~LiveView();
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;
 
   /// Hands over a sweep. A live one may lose its points, see Viewer::push.
   void show(std::size_t index, const SweepResult& result, Sweep sweep);
+  /// After the run: reads the sweeps again whose points were dropped, from `source`, which is at its beginning. A
+  /// signal ends it. @throws IoError
+  void show_missing(ScanSource& source, const RunRecord& run);
   /// Forgets what was shown.
   void start_over();
   Viewer& viewer() { return *viewer_; }

@@ -1,17 +1,24 @@
 #include "results/run_observers.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <exception>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "console/failure.hpp"
 #include "console/interrupt.hpp"
+#include "io/stamp_difference.hpp"
+#include "rilo/session/steady_clock.hpp"
 
 namespace rilo {
 
 namespace {
 
+constexpr std::int64_t kLongestPauseNs = 10'000'000'000;  // of a pace: a gap in the recording is not waited for
+constexpr std::int64_t kNapNs = 50'000'000;               // so that a signal ends it
 constexpr double kPictureVoxelM = 0.75;
 // 6 MB; beyond it the voxels grow: a long drive has small pixels anyway.
 constexpr std::size_t kPicturePoints = 100'000;
@@ -21,7 +28,7 @@ constexpr std::size_t kPicturePoints = 100'000;
 void SweepCheck::on_read(const Sweep& sweep, const std::string& name) {
   check_point_times(flags_.source, sweep, name);
   if (flags_.map_intensity && sweep.intensities.size() != sweep.points.size()) {
-    throw RunError(RunErrorKind::kBadData, name + ": no intensities; leave out --map-intensity");
+    throw RunError(RunErrorKind::kBadData, name + ": no intensities; run without --map-intensity");
   }
 }
 
@@ -77,6 +84,19 @@ std::vector<Eigen::Vector3f> MapPicture::points() const {
 void ViewFeed::on_registered(const RegisteredSweep& sweep) { view_.show(sweep.index, sweep.result, sweep.sweep); }
 
 void ViewFeed::on_restart(const Restart& /*restart*/) { view_.start_over(); }
+
+void Pace::on_read(const Sweep& sweep, const std::string& /*name*/) {
+  const std::int64_t now_ns = steady_ns();
+  // Clocks that are set back or jump do not stop the run; one that cannot keep up does not hurry afterwards.
+  const std::int64_t step_ns = detail::stamp_difference(sweep.stamp_ns, stamp_ns_.value_or(sweep.stamp_ns));
+  due_ns_ = std::max(now_ns, due_ns_ + std::clamp<std::int64_t>(step_ns, 0, kLongestPauseNs));
+  stamp_ns_ = sweep.stamp_ns;
+  while (steady_ns() < due_ns_ && InterruptGuard::signal() == 0) {
+    std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(due_ns_ - steady_ns(), kNapNs)));
+  }
+}
+
+void Pace::on_restart(const Restart& /*restart*/) { stamp_ns_.reset(); }
 
 void check_point_times(const SourceRequest& request, const Sweep& sweep, const std::string& name) {
   if (!request.times_needed || !sweep.times_s.empty() || sweep.points.empty()) return;

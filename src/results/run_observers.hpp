@@ -1,6 +1,8 @@
-// What `rilo run` and `rilo bench` do beside the odometry while a run goes on.
+// What `rilo run` and `rilo bench` do beside the odometry during a run.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +28,7 @@ class SweepCheck final : public SessionObserver {
   const RunRequest& flags_;
 };
 
-/// The bar, warnings, and the line that says that the run starts over.
+/// The bar, warnings, and the line that reports a restart.
 class ProgressLine final : public SessionObserver {
  public:
   ProgressLine(const RunRequest& flags, const ScanSource& source);
@@ -66,6 +68,17 @@ class ViewFeed final : public SessionObserver {
 
  private:
   LiveView& view_;
+};
+
+/// Lets the run go no faster than the sweeps were recorded.
+class Pace final : public SessionObserver {
+ public:
+  void on_read(const Sweep& sweep, const std::string& name) override;
+  void on_restart(const Restart& restart) override;
+
+ private:
+  std::optional<std::int64_t> stamp_ns_;  // of the sweep before
+  std::int64_t due_ns_ = 0;               // steady clock
 };
 
 /// Opens flags.data, for as many passes as there will be.

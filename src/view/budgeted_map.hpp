@@ -24,7 +24,7 @@ class BudgetedMap {
   /// @throws std::invalid_argument when an argument is not positive.
   BudgetedMap(double voxel_m, std::size_t max_points);
 
-  /// Adds points of the odometry frame (m). Those that are not finite, or farther than ±2^20 voxels, are passed over.
+  /// Adds points of the odometry frame (m). Those that are not finite, or farther than ±2^20 voxels, are dropped.
   void add(std::span<const Eigen::Vector3f> points, std::uint32_t sweep);
 
   /// In the order in which they came.

@@ -21,7 +21,7 @@ inline constexpr std::chrono::milliseconds kAcceptPause{200};
 
 class PageServer {
  public:
-  /// Binds. @throws IoError: the address is no number, the port is taken.
+  /// Binds. @throws IoError: the address is not a number, the port is taken.
   PageServer(boost::asio::io_context& io, const std::string& address, std::optional<std::uint16_t> port, Hub& hub);
 
   void start() { accept(); }
@@ -40,7 +40,7 @@ class PageServer {
   std::atomic<std::size_t> pauses_ = 0;
 };
 
-/// Whether `address` is this machine alone. @throws IoError when it is no numeric address.
+/// Whether `address` is this machine alone. @throws IoError when it is not a numeric address.
 bool is_loopback(const std::string& address);
 
 }  // namespace rilo::view

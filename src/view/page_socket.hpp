@@ -26,7 +26,7 @@ struct Hub {
   /// Something new is there to be sent.
   void wake();
 
-  /// Forgets the history and ends all connections: pages come again by themselves and are told everything anew.
+  /// Forgets the history and ends all connections: pages come again by themselves and get everything again.
   void start_over();
 
   ViewInfo info;

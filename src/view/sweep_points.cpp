@@ -52,7 +52,7 @@ SweepPoints sample_sweep(const ViewSweep& view, std::size_t max_points, double m
   out.intensities = column(view.sweep.intensities, indices);
   out.times_s = column(view.sweep.times_s, indices);
   if (out.times_s.empty()) return out;
-  // The middle of the sweep is the pose's instant.
+  // The pose is that of the middle of the sweep.
   const auto [first, last] = std::minmax_element(out.times_s.begin(), out.times_s.end());
   const float middle = 0.5F * (*first + *last);
   for (float& t : out.times_s) t -= middle;

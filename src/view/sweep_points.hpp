@@ -14,9 +14,9 @@ namespace rilo::view {
 
 /// Columns are empty or as long as `points`.
 struct SweepPoints {
-  std::vector<Eigen::Vector3f> points;  ///< motion-compensated, sensor frame at the pose's instant, m
+  std::vector<Eigen::Vector3f> points;  ///< motion-compensated, sensor frame at the time of the pose, m
   std::vector<float> intensities;       ///< sensor units
-  std::vector<float> times_s;           ///< since the pose's instant
+  std::vector<float> times_s;           ///< since the time of the pose
   std::vector<float> residuals_m;       ///< distance to the plane of the map; NaN: no plane there
 };
 

@@ -16,7 +16,8 @@ constexpr double kMapVoxelM = 0.2;
 constexpr double kMapRangeM = 70.0;  // farther points are few and far between: noise in the picture
 constexpr std::size_t kRecordsPerFrame = 2048;
 constexpr std::size_t kMapPointsPerFrame = 16384;
-constexpr std::size_t kLeastMapPoints = 1500;  // of a frame, as long as more will come
+constexpr std::size_t kUsualFrameBytes = 150'000;  // of a sweep, before there is one
+constexpr std::size_t kLeastMapPoints = 1500;      // of a frame, as long as more will come
 
 template <typename Enum>
 std::vector<std::string> names(std::size_t count) {
@@ -55,6 +56,12 @@ void SweepStore::add(std::uint32_t number, Frame frame) {
   newest_stays_ = seen_++ % every_ == 0;
 }
 
+void SweepStore::fill(std::uint32_t number, Frame frame) {
+  bytes_ += frame->size();
+  frames_.emplace(number, std::move(frame));
+  if (bytes_ > max_bytes_ && frames_.size() > 2) thin();
+}
+
 Frame SweepStore::at(std::uint32_t number) const {
   if (frames_.empty()) return nullptr;
   auto after = frames_.upper_bound(number);
@@ -87,23 +94,49 @@ void ViewHistory::add(const ViewSweep& sweep, bool watched) {
   if (sweep.sweep.points.empty()) return;
   const Clock::time_point begin = Clock::now();
   if (begin < next_points_) {
-    ++progress_.dropped;
+    note_dropped();
     return;
   }
-  add_points(sweep, watched);
+  add_points(progress_.sweeps - 1, sweep, watched, false);
   // What this took is paid back with idle time.
   const Clock::duration spent = Clock::now() - begin;
   const double idle = 1.0 / std::clamp(options_.share, 0.001, 1.0) - 1.0;
   next_points_ = begin + spent + std::chrono::duration_cast<Clock::duration>(spent * idle);
 }
 
-void ViewHistory::add_points(const ViewSweep& sweep, bool watched) {
-  const std::uint32_t number = progress_.sweeps - 1;
+void ViewHistory::note_dropped() {
+  missing_.push_back(progress_.sweeps - 1);
+  progress_.dropped = static_cast<std::uint32_t>(missing_.size());
+}
+
+const std::vector<std::uint32_t>& ViewHistory::choose_missing() {
+  const std::size_t frame_bytes = sweeps_.size() > 0 ? sweeps_.bytes() / sweeps_.size() : kUsualFrameBytes;
+  const std::size_t all_bytes = progress_.sweeps * std::max<std::size_t>(frame_bytes, 1);
+  const std::size_t every = all_bytes / std::max<std::size_t>(options_.sweep_bytes, 1) + 1;
+  std::erase_if(missing_, [&](std::uint32_t number) { return number % every != 0; });
+  progress_.dropped = static_cast<std::uint32_t>(missing_.size());
+  return missing_;
+}
+
+void ViewHistory::fill(std::uint32_t number, const ViewSweep& sweep, bool watched) {
+  const auto place = std::lower_bound(missing_.begin(), missing_.end(), number);
+  if (place == missing_.end() || *place != number) return;
+  missing_.erase(place);
+  progress_.dropped = static_cast<std::uint32_t>(missing_.size());
+  add_points(number, sweep, watched, true);
+}
+
+void ViewHistory::add_points(std::uint32_t number, const ViewSweep& sweep, bool watched, bool fills) {
   SweepPoints points =
       sample_sweep(sweep, options_.sweep_points, view_.min_range_m, view_.max_range_m, std::size_t{number} * 3);
   const SE3& T = sweep.result.T_odom_lidar;
   if (watched) residuals_.measure(T, points);
-  sweeps_.add(number, sweep_frame(number, points));
+  Frame frame = sweep_frame(number, points);
+  if (fills) {
+    sweeps_.fill(number, std::move(frame));
+  } else {
+    sweeps_.add(number, std::move(frame));
+  }
   if (!has_place(sweep.result.status)) return;
   if (watched) residuals_.add(T, points);
   std::vector<Eigen::Vector3f> world;

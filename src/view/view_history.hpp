@@ -15,13 +15,15 @@
 
 namespace rilo::view {
 
-/// Frames of single sweeps, so many bytes of them at most: beyond that every second one goes, and of those to come, so
+/// Frames of single sweeps within a limit of bytes: beyond it every second one goes, and of those to come, so
 /// that the whole run stays there to look back at, evenly. The first and the newest stay.
 class SweepStore {
  public:
   explicit SweepStore(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
   void add(std::uint32_t number, Frame frame);
+  /// The same of a sweep between those that are there, or before them.
+  void fill(std::uint32_t number, Frame frame);
   /// The last one up to `number`, else the first one; null when there is none.
   Frame at(std::uint32_t number) const;
   Frame newest() const { return frames_.empty() ? nullptr : frames_.rbegin()->second; }
@@ -36,7 +38,7 @@ class SweepStore {
   std::size_t max_bytes_;
   std::size_t bytes_ = 0;
   std::size_t seen_ = 0;
-  std::size_t every_ = 1;     // one of so many stays
+  std::size_t every_ = 1;     // one of this many stays
   bool newest_stays_ = true;  // when the next one comes
   std::map<std::uint32_t, Frame> frames_;
 };
@@ -51,8 +53,13 @@ class ViewHistory {
   void add(const ViewSweep& sweep, bool watched);
   void add_map(std::span<const Eigen::Vector3f> points, std::span<const std::uint32_t> sweeps);
   void finish();
-  /// A sweep came whose points were dropped on the way.
-  void count_dropped() { ++progress_.dropped; }
+  /// The points of the sweep added last were dropped on the way.
+  void note_dropped();
+  /// Sweeps whose points were dropped, ascending: as many as there is room for, evenly over the run. Only these count
+  /// as dropped from now on.
+  const std::vector<std::uint32_t>& choose_missing();
+  /// Adds the points of one of them, however long it takes.
+  void fill(std::uint32_t number, const ViewSweep& sweep, bool watched);
 
   Frame info() const { return info_; }
   const Progress& progress() const { return progress_; }
@@ -65,7 +72,8 @@ class ViewHistory {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void add_points(const ViewSweep& sweep, bool watched);
+  /// `fills`: between the sweeps that are there.
+  void add_points(std::uint32_t number, const ViewSweep& sweep, bool watched, bool fills);
   /// Makes frames of the points of the map that are in none yet, once there are so many.
   void cut_map(std::size_t least);
 
@@ -79,6 +87,7 @@ class ViewHistory {
   std::size_t framed_points_ = 0;
   std::vector<Frame> map_frames_;
   SweepStore sweeps_;
+  std::vector<std::uint32_t> missing_;  // sweeps whose points were dropped, ascending
   ResidualMap residuals_;
   Clock::time_point next_points_;  // not before
 };

@@ -1,4 +1,4 @@
-// What the viewer is told.
+// Input of the viewer.
 #pragma once
 
 #include <cstddef>

@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -47,25 +48,39 @@ class Viewer::Impl {
 
   void push(ViewSweep sweep, bool wait) {
     const bool has_points = !sweep.sweep.points.empty();
-    bool drop = false;
-    if (has_points) {
-      std::unique_lock lock(mutex_);
-      if (wait) room_.wait(lock, [this] { return waiting_ < kQueue || thread_.failed(); });
-      drop = waiting_ >= kQueue;
-      if (!drop) ++waiting_;
-    }
+    const bool drop = has_points && !take_room(wait);
     if (drop) sweep.sweep = Sweep{};
     // Shared, since handlers of this library's older versions are copied.
     auto shared = std::make_shared<const ViewSweep>(std::move(sweep));
     thread_.post([this, shared = std::move(shared), drop, counted = has_points && !drop] {
       hub_.history.add(*shared, unhurried_ || hub_.clients > 0);
-      if (drop) hub_.history.count_dropped();
+      if (drop) hub_.history.note_dropped();
       hub_.dropped = hub_.history.progress().dropped;
-      if (counted) {
-        const std::lock_guard lock(mutex_);
-        --waiting_;
-      }
-      room_.notify_one();
+      if (counted) give_room();
+      hub_.wake();
+    });
+  }
+
+  std::vector<std::uint32_t> missing_points() {
+    auto missing = std::make_shared<std::optional<std::vector<std::uint32_t>>>();
+    thread_.post([this, missing] {
+      const std::lock_guard lock(mutex_);
+      *missing = hub_.history.choose_missing();
+      hub_.dropped = hub_.history.progress().dropped;
+      room_.notify_all();
+    });
+    std::unique_lock lock(mutex_);
+    room_.wait(lock, [&] { return missing->has_value() || thread_.failed(); });
+    return missing->value_or(std::vector<std::uint32_t>{});
+  }
+
+  void fill(std::uint32_t number, ViewSweep sweep) {
+    if (!take_room(true)) return;
+    auto shared = std::make_shared<const ViewSweep>(std::move(sweep));
+    thread_.post([this, number, shared = std::move(shared)] {
+      hub_.history.fill(number, *shared, hub_.clients > 0);
+      hub_.dropped = hub_.history.progress().dropped;
+      give_room();
       hub_.wake();
     });
   }
@@ -93,6 +108,21 @@ class Viewer::Impl {
   std::size_t dropped() const { return hub_.dropped; }
 
  private:
+  // False when the queue is full.
+  bool take_room(bool wait) {
+    std::unique_lock lock(mutex_);
+    if (wait) room_.wait(lock, [this] { return waiting_ < kQueue || thread_.failed(); });
+    if (waiting_ >= kQueue) return false;
+    ++waiting_;
+    return true;
+  }
+
+  void give_room() {
+    const std::lock_guard lock(mutex_);
+    --waiting_;
+    room_.notify_one();
+  }
+
   std::string shown_url() const {
     const auto endpoint = server_.endpoint();
     const auto address = endpoint.address();
@@ -105,7 +135,7 @@ class Viewer::Impl {
     return fmt::format("http://{}:{}/{}", host, endpoint.port(), token.empty() ? "" : "?token=" + token);
   }
 
-  bool unhurried_;  // residuals also while nobody looks
+  bool unhurried_;  // residuals also without a page connected
   view::Hub hub_;
   view::ViewThread thread_;
   view::PageServer server_;
@@ -133,6 +163,10 @@ std::string Viewer::url() const { return impl_->url(); }
 void Viewer::push(ViewSweep sweep) { impl_->push(std::move(sweep), false); }
 
 void Viewer::push_all(ViewSweep sweep) { impl_->push(std::move(sweep), true); }
+
+std::vector<std::uint32_t> Viewer::missing_points() { return impl_->missing_points(); }
+
+void Viewer::fill(std::uint32_t number, ViewSweep sweep) { impl_->fill(number, std::move(sweep)); }
 
 void Viewer::add_map(std::span<const Eigen::Vector3f> points, std::span<const std::uint32_t> sweeps) {
   impl_->add_map({points.begin(), points.end()}, {sweeps.begin(), sweeps.end()});

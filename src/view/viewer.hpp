@@ -1,4 +1,4 @@
-// A web page that shows a run while it goes on, or a recorded one: docs/view.md.
+// A web page that shows a run live, or a recorded one: docs/view.md.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -50,17 +51,24 @@ class Viewer {
   /// The same, but waits until the viewer has room and keeps the points: for replays.
   void push_all(ViewSweep sweep);
 
+  /// Numbers (counted from the first one that was pushed) of sweeps whose points were dropped, ascending: those that
+  /// there is room for. Waits until all that was handed over is taken in. Only these count as dropped from now on.
+  std::vector<std::uint32_t> missing_points();
+
+  /// Adds the points of one of them; waits until the viewer has room.
+  void fill(std::uint32_t number, ViewSweep sweep);
+
   /// Points of a finished map, odometry frame (m); each appears with the sweep of that number (counted from the first
   /// one that was pushed). Both spans are of the same length.
   void add_map(std::span<const Eigen::Vector3f> points, std::span<const std::uint32_t> sweeps);
 
-  /// Forgets the sweeps so far: the run begins anew. Pages are disconnected, and connect again by themselves.
+  /// Forgets the sweeps so far: the run restarts. Pages are disconnected, and connect again by themselves.
   void start_over();
 
   /// No sweep will come any more.
   void finish();
 
-  /// Why it ended early: nobody can see anything any more, and what is handed over is dropped. Empty: it goes on.
+  /// Why it ended early; what is handed over from then on is dropped. Empty: it is running.
   std::string failure() const;
 
   /// Pages that are connected now.

@@ -16,6 +16,8 @@ bool Viewer::has_page() { return false; }
 std::string Viewer::url() const { return {}; }
 void Viewer::push(ViewSweep /*sweep*/) {}
 void Viewer::push_all(ViewSweep /*sweep*/) {}
+std::vector<std::uint32_t> Viewer::missing_points() { return {}; }
+void Viewer::fill(std::uint32_t /*number*/, ViewSweep /*sweep*/) {}
 void Viewer::add_map(std::span<const Eigen::Vector3f> /*points*/, std::span<const std::uint32_t> /*sweeps*/) {}
 void Viewer::start_over() {}
 void Viewer::finish() {}

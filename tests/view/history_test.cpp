@@ -94,6 +94,43 @@ TEST(ViewHistory, AShareOfTimeIsNotExceeded) {
   EXPECT_GT(history.progress().dropped, 0U);
 }
 
+TEST(ViewHistory, DroppedPointsAreFilledInAfterwards) {
+  ViewHistory history(ViewInfo{}, unhurried());
+  for (std::size_t i = 0; i < 12; ++i) {
+    const bool dropped = i % 3 != 0;
+    history.add(sweep_at(i, dropped ? 0 : 400), true);
+    if (dropped) history.note_dropped();
+  }
+  EXPECT_EQ(history.progress().dropped, 8U);
+  EXPECT_EQ(history.sweeps().at(5), history.sweeps().at(3));
+  const std::vector<std::uint32_t> missing = history.choose_missing();
+  EXPECT_EQ(missing, (std::vector<std::uint32_t>{1, 2, 4, 5, 7, 8, 10, 11}));
+  for (const std::uint32_t number : missing) history.fill(number, sweep_at(number), true);
+  history.fill(3, sweep_at(3), true);  // has its points already
+  EXPECT_EQ(history.progress().dropped, 0U);
+  EXPECT_EQ(history.records(), 12U);
+  EXPECT_EQ(history.sweeps().size(), 12U);
+  EXPECT_NE(history.sweeps().at(5), history.sweeps().at(3));
+  EXPECT_EQ(history.sweeps().newest_number(), 11U);
+}
+
+TEST(ViewHistory, OnlyAsManyAreFilledInAsThereIsRoomFor) {
+  ViewOptions options = unhurried();
+  options.sweep_bytes = 20'000;
+  ViewHistory history(ViewInfo{}, options);
+  history.add(sweep_at(0), true);
+  for (std::size_t i = 1; i < 40; ++i) {
+    history.add(sweep_at(i, 0), true);
+    history.note_dropped();
+  }
+  const std::size_t frame_bytes = history.sweeps().bytes();
+  const std::vector<std::uint32_t> missing = history.choose_missing();
+  EXPECT_GT(missing.size(), 2U);
+  EXPECT_LE(missing.size() * frame_bytes, options.sweep_bytes);
+  EXPECT_GT(missing.back(), 30U);  // evenly over the run
+  EXPECT_EQ(history.progress().dropped, missing.size());
+}
+
 TEST(SweepPoints, AreCompensatedChosenAndMeasured) {
   ViewSweep sweep;
   sweep.result.twist[3] = 10.0;  // m/s forward

@@ -45,7 +45,7 @@ export class Ellipsoids {
   show(record) {
     this.covariance.visible = this.covariance.wanted && record.covariance[0] > 0;
     this.evidence.visible = this.evidence.wanted && record.evidence.some((value) => value > 0);
-    // Guesses (lost, empty) have metres: as large as the rings, no more.
+    // Guesses (lost, empty) have metres: at most as large as the rings.
     const largest = Math.sqrt(Math.max(record.covariance[0], record.covariance[3], record.covariance[5], 1e-12));
     shape(this.covariance, record.covariance, Math.min(EXAGGERATION, 12 / largest));
     shape(this.evidence, record.evidence, EVIDENCE_RADIUS_M);

@@ -82,7 +82,7 @@ class View {
     });
   }
 
-  /// Playing, or staying at the newest sweep of a run that goes on.
+  /// Playing, or staying at the newest sweep of a live run.
   get moving() {
     return this.run.playing || (this.run.newest && !this.run.progress.finished);
   }
@@ -141,7 +141,7 @@ class View {
     element.className = open ? (progress.finished ? '' : 'live') : 'lost';
     const kind = info?.live ? 'live' : 'reading';
     const text = open ? (progress.finished ? (info?.live ? 'run finished' : 'replay') : `● ${kind}`) : 'connection lost; trying again';
-    const dropped = progress.dropped > 0 && info?.live ? `, points of ${progress.dropped} sweeps left out` : '';
+    const dropped = progress.dropped > 0 && info?.live ? `, points of ${progress.dropped} sweeps dropped` : '';
     const full = text + dropped;
     if (element.textContent !== full) element.textContent = full;
   }
@@ -179,5 +179,5 @@ class View {
   }
 }
 
-// For whoever looks at the page from the developer tools.
+// For the developer tools.
 globalThis.viewer = new View();

@@ -127,7 +127,7 @@ export class MapLayer {
     this.stage.dirty = true;
   }
 
-  /// Before drawing: what is not there yet is left out, and of the rest a part where time is short.
+  /// Before drawing: skips what is not there yet, and a part of the rest where time is short.
   prepare(pixels, ratio) {
     this.material.uniforms.pixels.value = pixels;
     this.material.uniforms.ratio.value = ratio;

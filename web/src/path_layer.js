@@ -28,7 +28,7 @@ class Path {
 
   add(position, number) {
     const before = this.points.at(-1);
-    // A sensor that stands still adds nothing that could be seen.
+    // A stationary sensor adds nothing visible.
     if (before && Math.hypot(...position.map((p, i) => p - before[i])) < 0.05) return;
     this.points.push(position);
     if (before) this.numbers.push(number);

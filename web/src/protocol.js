@@ -92,11 +92,11 @@ function sweep(view, flags, count) {
   return frame;
 }
 
-/// An ArrayBuffer as an object with a `type`. Throws when it is no frame of this version.
+/// An ArrayBuffer as an object with a `type`. Throws when it is not a frame of this version.
 export function parseFrame(buffer) {
   const view = new DataView(buffer);
   need(view, 8);
-  if (view.getUint8(1) !== VERSION) throw new FrameError(`protocol version ${view.getUint8(1)}, this page speaks ${VERSION}`);
+  if (view.getUint8(1) !== VERSION) throw new FrameError(`protocol version ${view.getUint8(1)}, this page has ${VERSION}`);
   const flags = view.getUint16(2, true);
   const count = view.getUint32(4, true);
   switch (view.getUint8(0)) {

@@ -22,7 +22,7 @@ export class Rate {
     return 1000 / this.usual;
   }
 
-  /// Nothing was drawn: what follows says nothing of the time that drawing takes.
+  /// Nothing was drawn: the next interval does not measure drawing.
   rest() {
     this.last = null;
   }

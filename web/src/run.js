@@ -39,6 +39,7 @@ export class Run extends EventTarget {
     } else if (frame.type === 'records') {
       this.addRecords(frame);
     } else if (frame.type === 'progress') {
+      if (frame.dropped < this.progress.dropped) this.forgetStandIns();
       this.progress = frame;
       this.sound('progress');
     } else if (frame.type === 'sweep') {
@@ -73,11 +74,18 @@ export class Run extends EventTarget {
     if (this.asked !== null) {
       const asked = this.asked;
       this.asked = null;
-      // The program keeps every n-th sweep of a long run: what it gave stands for the one asked for.
+      // The program keeps every n-th sweep of a long run: it sent the nearest one in place of the one asked for.
       if (asked !== frame.number) this.sweeps.set(asked, frame);
       if (asked !== this.shown && !this.newest) this.fetch();
     }
     if (this.newest || this.sweeps.get(this.shown) === frame || this.sweep === null) this.useSweep(frame);
+  }
+
+  /// Points of sweeps that were missing have arrived.
+  forgetStandIns() {
+    for (const [number, frame] of this.sweeps) {
+      if (frame.number !== number) this.sweeps.delete(number);
+    }
   }
 
   useSweep(frame) {
@@ -118,7 +126,7 @@ export class Run extends EventTarget {
     this.sound('mode');
   }
 
-  /// Playback goes on by so many seconds of the drive.
+  /// Advances playback by seconds of the drive.
   advance(seconds) {
     if (!this.playing || this.newest || this.shown < 0) return;
     this.at += seconds;

@@ -7,7 +7,7 @@ const STRIPS = [
   { name: 'σ_th', unit: 'm', of: (r) => r.sigmaTh, digits: 3, stroke: 'estimate' },
   { name: 'inliers', unit: '', of: (r) => r.inliers, digits: 0, stroke: 'good' },
   { name: 'iterations', unit: '', of: (r) => r.iterations, digits: 0, stroke: 'coarse' },
-  { name: 'time a sweep', unit: 'ms', of: (r) => r.ms[0], digits: 1, stroke: 'warn' },
+  { name: 'time per sweep', unit: 'ms', of: (r) => r.ms[0], digits: 1, stroke: 'warn' },
 ];
 const PAD = { left: 44, right: 8 };
 

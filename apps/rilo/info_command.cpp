@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -123,10 +126,45 @@ nlohmann::json truth_json(const std::string& data) {
   }
 }
 
-nlohmann::json describe(const InfoFlags& flags) {
-  const auto source = open_scan_source(flags.data, flags.source.options);
-  const Survey survey = survey_of(*source, flags.all);
-  const SourceInfo info = source->info();
+/// Of a recording with several topics to choose from; nothing otherwise.
+std::optional<nlohmann::json> topics_to_choose(const InfoFlags& flags) {
+  if (!flags.source.options.topic.empty()) return std::nullopt;
+  const std::vector<TopicInfo> topics = recorded_topics(flags.data);
+  if (std::count_if(topics.begin(), topics.end(), [](const TopicInfo& topic) { return topic.scans; }) < 2) {
+    return std::nullopt;
+  }
+  nlohmann::json list = nlohmann::json::array();
+  for (const TopicInfo& topic : topics) {
+    list.push_back({{"name", topic.name},
+                    {"type", topic.type},
+                    {"messages", topic.messages ? nlohmann::json(*topic.messages) : nlohmann::json(nullptr)},
+                    {"scans", topic.scans},
+                    {"frame_id", topic.frame_id}});
+  }
+  return nlohmann::json{{"data", flags.data}, {"kind", "recording"}, {"topics", list}};
+}
+
+std::string topics_as_text(const nlohmann::json& j) {
+  const auto data = j["data"].get<std::string>();
+  std::string text =
+      fmt::format("{}: recording with several topics of scans; --topic chooses one\n\n{:<32} {:<32} {:>8}  {}\n", data,
+                  "topic", "type", "messages", "frame");
+  std::string runs;
+  for (const auto& topic : j["topics"]) {
+    const auto name = topic["name"].get<std::string>();
+    const auto frame = topic["frame_id"].get<std::string>();
+    text += fmt::format("{:<32} {:<32} {:>8}  {}\n", name, topic["type"].get<std::string>(),
+                        topic["messages"].is_null() ? "?" : topic["messages"].dump(), frame.empty() ? "–" : frame);
+    if (!topic["scans"].get<bool>()) continue;
+    runs += fmt::format("{}rilo run {} --topic {} --out results\n",
+                        runs.empty() ? "\nto run it     " : "              ", shell_quoted(data), shell_quoted(name));
+  }
+  return text + runs;
+}
+
+nlohmann::json describe(const InfoFlags& flags, ScanSource& source) {
+  const Survey survey = survey_of(source, flags.all);
+  const SourceInfo info = source.info();
   const bool complete = survey.read == survey.sweeps;
   const double mean = survey.read == 0 ? 0.0 : static_cast<double>(survey.points) / static_cast<double>(survey.read);
   nlohmann::json json = {
@@ -219,6 +257,20 @@ std::string as_text(const nlohmann::json& j) {
   return text + advice(j);
 }
 
+void print_info(const InfoFlags& flags) {
+  std::unique_ptr<ScanSource> source;
+  try {
+    source = open_scan_source(flags.data, flags.source.options);
+  } catch (const IoError&) {
+    const auto topics = topics_to_choose(flags);
+    if (!topics) throw;
+    std::cout << (flags.json ? json_text(*topics) : topics_as_text(*topics));
+    return;
+  }
+  const nlohmann::json json = describe(flags, *source);
+  std::cout << (flags.json ? json_text(json) : as_text(json));
+}
+
 }  // namespace
 
 void add_info_command(CLI::App& app, int& exit_code) {
@@ -230,8 +282,7 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->add_flag("--json", flags->json, "print JSON");
   add_source_flags(*command, flags->source);
   command->callback([flags, &exit_code] {
-    const nlohmann::json json = describe(*flags);
-    std::cout << (flags->json ? json_text(json) : as_text(json));
+    print_info(*flags);
     exit_code = kSuccess;
   });
 }

@@ -42,7 +42,7 @@ std::vector<Field> fields_of(const std::filesystem::path& file, const std::strin
   return fields;
 }
 
-// What the first file promises. A file that cannot be read is reported when its turn comes.
+// What the first file promises. A file that cannot be read is reported when it is reached.
 std::optional<std::string> promised_times(const ScanListing& listing, const SourceOptions& options) {
   if (listing.column_points > 0) return "the order of the points, fractions of the sweep since its stamp";
   if (!listing.fraction_files.empty()) return "times_pt, fractions of the sweep since its stamp";
@@ -89,6 +89,7 @@ FileSource::FileSource(ScanListing listing, const SourceOptions& options)
     : listing_(std::move(listing)),
       options_(with_bin_fields(listing_, options)),
       timing_(options, hints_of(listing_, options), listing_.info.period_s) {
+  note_unused_topic(options, listing_.info);
   if (options.point_times == PointTimes::kAuto) timing_.promise(promised_times(listing_, options_));
 }
 

@@ -91,12 +91,17 @@ std::unique_ptr<ScanSource> open_file(const fs::path& file, const SourceOptions&
   return std::make_unique<detail::FileSource>(detail::list_single_file(file, options), options);
 }
 
+std::unique_ptr<detail::Recording> recording_at(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored) ? recording_in_folder(path) : recording_in_file(path);
+}
+
 std::unique_ptr<ScanSource> open_data(const fs::path& path, const SourceOptions& options) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) return open_folder(path, options);
   if (fs::is_regular_file(status)) return open_file(path, options);
-  throw IoError({path, "", fs::exists(status) ? "neither a folder nor a file" : "there is nothing of this name",
+  throw IoError({path, "", fs::exists(status) ? "neither a folder nor a file" : "no such file or folder",
                  "a recording, a folder of sweeps, or one sweep", "Check the path"});
 }
 
@@ -118,6 +123,11 @@ std::unique_ptr<ScanSource> open_scan_source(const fs::path& path, const SourceO
   std::unique_ptr<ScanSource> source = in_order_and_corrected(open_data(path, options), options);
   if (options.read_ahead > 0) source = std::make_unique<PrefetchSource>(std::move(source), options.read_ahead);
   return source;
+}
+
+std::vector<TopicInfo> recorded_topics(const fs::path& path) {
+  const auto recording = recording_at(path);
+  return recording ? detail::describe_topics(*recording) : std::vector<TopicInfo>{};
 }
 
 }  // namespace rilo

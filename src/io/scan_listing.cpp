@@ -23,7 +23,7 @@ double rate_of_drive(const fs::path& meta_file, double otherwise_s) {
   const FileBytes bytes = read_file(meta_file);
   const auto meta = nlohmann::json::parse(bytes.view(), nullptr, false);
   if (!meta.is_object()) {
-    throw IoError({meta_file, "", "text that is no JSON object", "the drive simulator's description",
+    throw IoError({meta_file, "", "text that is not a JSON object", "the drive simulator's description",
                    "Write the drive again, or remove meta.json to read it as a KITTI sequence"});
   }
   const auto rate = meta.find("rate_hz");
@@ -123,6 +123,12 @@ void note_bad_sweep(const IoError& error, SourceInfo& info) {
 void add_bad_sweep_count(SourceInfo& info) {
   if (info.bad_sweeps == 0) return;
   info.warnings.push_back(std::to_string(info.bad_sweeps) + " sweeps could not be read and were skipped");
+}
+
+void note_unused_topic(const SourceOptions& options, SourceInfo& info) {
+  if (options.topic.empty()) return;
+  info.warnings.push_back("--topic " + in_quotes(options.topic) +
+                          " is ignored: the data are not a recording of topics");
 }
 
 void start_listing(ScanListing& listing, const char* kind, const fs::path& path, SweepFiles found) {

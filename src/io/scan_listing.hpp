@@ -19,9 +19,9 @@ struct ScanListing {
   std::vector<std::filesystem::path> files;
   std::vector<std::int64_t> stamps_ns;                ///< as long as files
   std::vector<std::filesystem::path> fraction_files;  ///< a drive simulator's times_pt; empty, or as long as files
-  std::size_t column_points = 0;                      ///< points are in columns of so many, fired together; 0: unknown
+  std::size_t column_points = 0;                      ///< points per column, fired together; 0: unknown
   bool period_known = false;                          ///< info.period_s comes from stamps or meta.json
-  double forward_after_s = 0;                         ///< from the stamp to the instant when the sensor faces forward
+  double forward_after_s = 0;                         ///< from the stamp to the time when the sensor faces forward
 };
 
 /// KITTI sequence or drive simulator's folder: it has a subfolder velodyne.
@@ -61,10 +61,13 @@ std::vector<std::int64_t> stamps_from_names(const std::vector<std::filesystem::p
 /// Median of the steps that move forward, in s; nothing when there are none.
 std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps);
 
-/// Counts a sweep that is left out (OnBadSweep::kSkip); the first ones are warnings of their own.
+/// Counts a skipped sweep (OnBadSweep::kSkip); the first ones are warnings of their own.
 void note_bad_sweep(const IoError& error, SourceInfo& info);
 /// The warning with the number of those.
 void add_bad_sweep_count(SourceInfo& info);
+
+/// Warns of SourceOptions::topic on data without topics.
+void note_unused_topic(const SourceOptions& options, SourceInfo& info);
 
 /// Sets stamps and period from `stamps`, or from the assumed rate when there are none; adds the warnings.
 void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const SourceOptions& options);

@@ -104,5 +104,24 @@ TEST(RecordingCommand, SeveralTopicsAreListed) {
               "/rear (sensor_msgs/msg/PointCloud2, 0 messages)", "--topic"});
 }
 
+TEST(RecordingCommand, InfoListsTheTopicsToChooseFrom) {
+  const TempDir folder;
+  const auto file = recording(folder);
+  const auto info = nlohmann::json::parse(rilo_succeeds({"info", file, "--json"}).out);
+  ASSERT_EQ(info["topics"].size(), 2U);
+  EXPECT_EQ(info["topics"][0]["name"], "/points");
+  EXPECT_EQ(info["topics"][0]["type"], "sensor_msgs/msg/PointCloud2");
+  EXPECT_EQ(info["topics"][0]["messages"], 13);
+  EXPECT_EQ(info["topics"][0]["frame_id"], "lidar");
+  EXPECT_EQ(info["topics"][1]["name"], "/rear");
+  EXPECT_NE(rilo_succeeds({"info", file}).out.find("--topic /points --out results"), std::string::npos);
+}
+
+TEST(RecordingCommand, ATopicOfDataWithoutTopicsIsANote) {
+  const auto info = nlohmann::json::parse(rilo_succeeds({"info", shared_drive(), "--topic", "/points", "--json"}).out);
+  ASSERT_FALSE(info["warnings"].empty());
+  EXPECT_NE(info["warnings"].dump().find("--topic '/points' is ignored"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rilo::test

@@ -1,7 +1,8 @@
-// Sweeps, one after the other, wherever they come from.
+// Sweeps, one after the other, from any source.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -48,16 +49,25 @@ struct SourceInfo {
   std::vector<std::string> warnings;    ///< sentences for the user
 };
 
-/// A stream of sweeps. One thread uses it. Memory does not grow with the data.
+/// A topic of a recording.
+struct TopicInfo {
+  std::string name;
+  std::string type;                       ///< "sensor_msgs/PointCloud2", "sensor_msgs/msg/PointCloud2", …
+  std::optional<std::uint64_t> messages;  ///< when known without reading them
+  bool scans = false;                     ///< one of those that SourceOptions::topic chooses from
+  std::string frame_id;                   ///< of the first message of a topic with scans; empty where it has none
+};
+
+/// A stream of sweeps. Not thread-safe. Memory does not grow with the data.
 class ScanSource {
  public:
   virtual ~ScanSource() = default;
 
   /// The next sweep, or nothing at the end.
-  /// @throws IoError when it cannot be read; the following call continues with the next sweep.
+  /// @throws IoError when it cannot be read; the following call continues with the sweep after it.
   virtual std::optional<Sweep> next() = 0;
 
-  /// Leaves out up to `count` sweeps without reading them; returns how many there were. Cheapest before the first
+  /// Skips up to `count` sweeps without reading them; returns how many there were. Cheapest before the first
   /// next().
   virtual std::size_t skip(std::size_t count) = 0;
 
@@ -84,5 +94,9 @@ class ScanSource {
 /// say. See docs/file-formats.md.
 /// @throws IoError when the path is none of these; std::invalid_argument when an option makes no sense.
 std::unique_ptr<ScanSource> open_scan_source(const std::filesystem::path& path, const SourceOptions& options = {});
+
+/// All topics of the recording (ROS 1 bags, rosbag2, MCAP) at `path`; empty for other data.
+/// @throws IoError when the recording cannot be read.
+std::vector<TopicInfo> recorded_topics(const std::filesystem::path& path);
 
 }  // namespace rilo

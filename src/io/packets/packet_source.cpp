@@ -16,6 +16,7 @@ PacketSource::PacketSource(const std::filesystem::path& path, const std::string&
   info_.kind = "packets";
   info_.path = path;
   info_.topic = topic;
+  if (topic.empty()) note_unused_topic(options, info_);
   info_.period_s = 1 / options.assumed_rate_hz;
   find_period();
 }
@@ -66,7 +67,7 @@ std::optional<Sweep> PacketSource::next() {
     while (!ended_ && !error_ && ready_.size() < 2) fill();
     if (ready_.empty()) {
       if (error_) throw IoError(*std::exchange(error_, std::nullopt));
-      refuse_shortened();
+      reject_shortened();
       return std::nullopt;
     }
     DecodedSweep done = std::move(ready_.front());
@@ -85,10 +86,11 @@ std::optional<Sweep> PacketSource::next() {
 }
 
 // After the sweeps that are whole, and once. To skip it is to be content with these.
-void PacketSource::refuse_shortened() {
-  if (!stream_->shortened() || std::exchange(refused_, true) || options_.on_bad_sweep == OnBadSweep::kSkip) return;
+void PacketSource::reject_shortened() {
+  if (!stream_->shortened() || std::exchange(rejected_, true) || options_.on_bad_sweep == OnBadSweep::kSkip) return;
   throw IoError({info_.path, "after sweep " + std::to_string(given_), "the file has become shorter",
-                 "a file that stays as it is while it is read", "Check the disk, and that nobody writes the file"});
+                 "a file that stays as it is while it is read",
+                 "Check the disk, and that no other program writes the file"});
 }
 
 std::size_t PacketSource::skip(std::size_t count) {
@@ -98,7 +100,7 @@ std::size_t PacketSource::skip(std::size_t count) {
       if (!next()) break;
       ++skipped;
     } catch (const IoError&) {
-      if (refused_) throw;  // a damaged message among those skipped does not matter
+      if (rejected_) throw;  // a damaged message among those skipped does not matter
     }
   }
   return skipped;
@@ -125,6 +127,12 @@ SourceInfo PacketSource::info() const {
   if (options_.point_times == PointTimes::kNone) info.point_times = "none";
   if (options_.point_times == PointTimes::kAzimuth) info.point_times = "azimuth";
   for (std::string& warning : stream_->warnings()) info.warnings.push_back(std::move(warning));
+  if (ended_ && ready_.empty()) add_counts(info);
+  return info;
+}
+
+// Once, at the end: counts that grow would be new warnings all the time.
+void PacketSource::add_counts(SourceInfo& info) const {
   if (incomplete_ > 0) {
     info.warnings.push_back("dropped " + std::to_string(incomplete_) +
                             " incomplete revolutions at the ends of the recording");
@@ -140,7 +148,6 @@ SourceInfo PacketSource::info() const {
     info.warnings.push_back("the sensor's clock was set " + std::to_string(decoder_->clock_resets()) +
                             " times: the stamps follow the recorder's");
   }
-  return info;
 }
 
 std::unique_ptr<ScanSource> open_capture(const std::filesystem::path& file, const SourceOptions& options) {

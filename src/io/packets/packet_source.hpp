@@ -31,7 +31,8 @@ class PacketSource final : public ScanSource {
  private:
   void fill();
   void take(const Datagram& datagram);
-  void refuse_shortened();
+  void reject_shortened();
+  void add_counts(SourceInfo& info) const;
   void find_period();
   void set_times(Sweep& sweep) const;
 
@@ -45,7 +46,7 @@ class PacketSource final : public ScanSource {
   std::size_t incomplete_ = 0;  // revolutions at the beginning and the end
   std::size_t unusable_ = 0;    // packets that are not the LiDAR's
   bool started_ = false;
-  bool refused_ = false;
+  bool rejected_ = false;
   bool ended_ = false;
 };
 

@@ -69,7 +69,7 @@ void RecordingSource::look_ahead() {
       parse_cloud(*message, topic_, options_.time_field, "", cloud);
       if (cloud.cloud.times) promised = "field " + cloud.cloud.times->field;
     } catch (const IoError&) {
-      // Reported when its turn comes.
+      // Reported when it is reached.
     }
     if (!cloud.stamp_ns) continue;
     stamps.push_back(*cloud.stamp_ns);
@@ -143,6 +143,36 @@ void RecordingSource::note_lateness(std::int64_t late_ns) {
   if (late_s <= info_.period_s) return;
   ++info_.faults.late;
   info_.faults.most_late_s = std::max(info_.faults.most_late_s, late_s);
+}
+
+namespace {
+
+// Of the first message that can be read.
+std::string frame_of(Recording& recording, const RecordedTopic& topic) {
+  if (is_packets(scan_form(topic))) return "";
+  CloudMessage cloud;
+  recording.select(topic);
+  try {
+    if (const auto message = recording.next()) parse_cloud(*message, topic, "", "", cloud);
+  } catch (const IoError&) {
+    return cloud.frame_id;
+  }
+  return cloud.frame_id;
+}
+
+}  // namespace
+
+std::vector<TopicInfo> describe_topics(Recording& recording) {
+  const std::vector<RecordedTopic> topics = recording.topics();
+  const std::vector<RecordedTopic> scans = scan_topics(topics);
+  std::vector<TopicInfo> described;
+  for (const RecordedTopic& topic : topics) {
+    const bool chosen = std::any_of(scans.begin(), scans.end(),
+                                    [&](const RecordedTopic& scan) { return scan.has_same_messages(topic); });
+    described.push_back(
+        {topic.name, topic.type, topic.messages, chosen, chosen ? frame_of(recording, topic) : std::string()});
+  }
+  return described;
 }
 
 std::unique_ptr<ScanSource> open_recording(const std::filesystem::path& path, std::unique_ptr<Recording> recording,

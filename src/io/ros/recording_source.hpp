@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/ros/recording.hpp"
 #include "io/sweep_timing.hpp"
@@ -42,6 +43,9 @@ class RecordingSource final : public ScanSource {
   std::size_t current_ = 0;  // of the last one
   std::optional<std::int64_t> usual_delay_ns_;
 };
+
+/// What recorded_topics() gives; reads the first message of each topic with clouds.
+std::vector<TopicInfo> describe_topics(Recording& recording);
 
 /// The clouds or packets of the topic that choose_topic() finds. @throws IoError as it does, and as
 /// open_packet_topic().

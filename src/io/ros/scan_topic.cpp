@@ -74,6 +74,15 @@ bool is_text(const RecordedTopic& topic) {
   return is_known_encoding(topic) && without_msg(topic.type) == "std_msgs/String";
 }
 
+std::vector<RecordedTopic> scan_topics(const std::vector<RecordedTopic>& topics) {
+  auto clouds = topics_with(topics, [](const RecordedTopic& topic) {
+    const ScanForm form = scan_form(topic);
+    return form == ScanForm::kPointCloud2 || form == ScanForm::kLivoxCustom;
+  });
+  if (!clouds.empty()) return clouds;
+  return topics_with(topics, [](const RecordedTopic& topic) { return is_packets(scan_form(topic)) && !is_imu(topic); });
+}
+
 RecordedTopic choose_topic(const std::filesystem::path& path, const std::vector<RecordedTopic>& topics,
                            const std::string& wanted) {
   if (!wanted.empty()) {
@@ -83,23 +92,13 @@ RecordedTopic choose_topic(const std::filesystem::path& path, const std::vector<
     if (named.size() == 1) return named[0];
     throw IoError({path, "", list_of(topics),
                    "the topic " + in_quotes(wanted) + " with messages of type " + kKnownTypes,
-                   "Name one of these with --topic, or leave it out when only one holds scans"});
+                   "Name one of these with --topic, or omit it when only one holds scans"});
   }
-  auto found = topics_with(topics, [](const RecordedTopic& topic) {
-    const ScanForm form = scan_form(topic);
-    return form == ScanForm::kPointCloud2 || form == ScanForm::kLivoxCustom;
-  });
-  if (found.size() > 1) {
-    throw IoError({path, "", std::to_string(found.size()) + " topics of point clouds: " + list_of(found), "one",
-                   "Choose one with --topic"});
-  }
-  if (found.empty()) {
-    found =
-        topics_with(topics, [](const RecordedTopic& topic) { return is_packets(scan_form(topic)) && !is_imu(topic); });
-  }
+  const auto found = scan_topics(topics);
   if (found.size() == 1) return found[0];
   if (found.size() > 1) {
-    throw IoError({path, "", std::to_string(found.size()) + " topics of LiDAR packets: " + list_of(found), "one",
+    const std::string kind = is_packets(scan_form(found[0])) ? "LiDAR packets" : "point clouds";
+    throw IoError({path, "", std::to_string(found.size()) + " topics of " + kind + ": " + list_of(found), "one",
                    "Choose one with --topic"});
   }
   throw IoError({path, "", list_of(topics),

@@ -26,8 +26,11 @@ bool is_packets(ScanForm form);
 /// std_msgs/String; an Ouster's driver publishes its metadata so.
 bool is_text(const RecordedTopic& topic);
 
-/// The topic called `wanted` (a slash at its beginning may be missing); if that is empty, the only topic of clouds
-/// (PointCloud2, CustomMsg), and where there is none, the only one of LiDAR packets.
+/// Topics of clouds (PointCloud2, CustomMsg), or, where there is none, of LiDAR packets.
+std::vector<RecordedTopic> scan_topics(const std::vector<RecordedTopic>& topics);
+
+/// The topic called `wanted` (a slash at its beginning may be missing); if that is empty, the only one of
+/// scan_topics().
 /// @throws IoError that lists the topics when there is no such topic or more than one.
 RecordedTopic choose_topic(const std::filesystem::path& path, const std::vector<RecordedTopic>& topics,
                            const std::string& wanted);

@@ -1,0 +1,11 @@
+# cmake --build BUILD --target uninstall: removes what the last `cmake --install BUILD` has installed.
+set(manifest ${BUILD_DIR}/install_manifest.txt)
+if(NOT EXISTS ${manifest})
+  message(FATAL_ERROR "${manifest}: no such file; nothing was installed from this build")
+endif()
+file(STRINGS ${manifest} files)
+foreach(file IN LISTS files)
+  file(REMOVE "$ENV{DESTDIR}${file}")
+endforeach()
+list(LENGTH files count)
+message(STATUS "removed ${count} files; folders stay")

@@ -1,0 +1,13 @@
+# The target `uninstall` removes the files of the manifest, and nothing else.
+file(REMOVE_RECURSE ${DIR})
+file(WRITE ${DIR}/prefix/bin/installed "")
+file(WRITE ${DIR}/prefix/bin/other "")
+file(WRITE ${DIR}/build/install_manifest.txt "${DIR}/prefix/bin/installed\n")
+execute_process(COMMAND ${CMAKE_COMMAND} -DBUILD_DIR=${DIR}/build -P ${SCRIPT} RESULT_VARIABLE result)
+if(result OR EXISTS ${DIR}/prefix/bin/installed OR NOT EXISTS ${DIR}/prefix/bin/other)
+  message(FATAL_ERROR "uninstall: result ${result}")
+endif()
+execute_process(COMMAND ${CMAKE_COMMAND} -DBUILD_DIR=${DIR}/none -P ${SCRIPT} RESULT_VARIABLE result ERROR_QUIET)
+if(NOT result)
+  message(FATAL_ERROR "uninstall succeeds without a manifest")
+endif()

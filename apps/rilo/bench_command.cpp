@@ -34,7 +34,7 @@ finished: cells that failed, that were interrupted, or whose data, configuration
     - name: A, no coarse registration
       set: [coarse.enabled=false]
 
-Leaves in --out: results.json, results.csv, results.md, results.sqlite; in cells/ a file and a log a cell.
+Leaves in --out: results.json, results.csv, results.md, results.sqlite; in cells/ a file and a log per cell.
 
 Examples:
   rilo bench experiments/ablation.yaml --root drives --out results --jobs 4
@@ -113,7 +113,7 @@ void leave_out_missing(const BenchFlags& flags, BenchPlan& plan) {
     throw RunError(RunErrorKind::kBadData, flags.plan + ": none of its sequences is there: " + missing +
                                                "; name the folder that they lie in with --root");
   }
-  if (!missing.empty() && !flags.order.run.quiet) std::cerr << "left out, as they are not there: " << missing << '\n';
+  if (!missing.empty() && !flags.order.run.quiet) std::cerr << "skipped, as they do not exist: " << missing << '\n';
   plan.sequences = there;
 }
 
@@ -182,7 +182,7 @@ void add_common_flags(CLI::App& command, BenchFlags& flags) {
       .add_option("--baseline", order.baseline,
                   "folder, results.json or results.sqlite of an earlier benchmark to print the difference to")
       ->check(path_given());
-  command.add_option("--count", order.run.count, "run that many sweeps of every sequence; 0: all, or as FILE says")
+  command.add_option("--count", order.run.count, "run that many sweeps of every sequence; 0: all, or as in FILE")
       ->check(whole_number());
   command
       .add_option("--threads", order.run.threads,
@@ -200,11 +200,11 @@ void add_common_flags(CLI::App& command, BenchFlags& flags) {
       ->check(whole_number(10000));
   command.add_option("--retries", order.retries, "run a cell that failed that many times more")
       ->check(whole_number(100));
-  command.add_option("--repeats", flags.repeats, "run every cell that often, in the place of what FILE says")
+  command.add_option("--repeats", flags.repeats, "run every cell that often, instead of the number in FILE")
       ->check(number_within(1, 1000));
   command.add_option("--sbatch", order.sbatch, "option for sbatch, repeatable: --sbatch=--time=60")
       ->allow_extra_args(false);
-  command.add_option("--cell", flags.cell, "cell to run alone: what the jobs of --on slurm are told")->group("");
+  command.add_option("--cell", flags.cell, "cell to run alone: used by the jobs of --on slurm")->group("");
   command.add_flag("--quiet", order.run.quiet, "no progress, no warnings");
 }
 
@@ -228,7 +228,7 @@ void add_show_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags)
       ->check(CLI::IsMember({"text", "markdown", "csv"}));
   command->add_flag("--paired", flags->paired, "the paired comparison with the peers alone");
   command->add_flag("--no-times", flags->no_times,
-                    "leave out the columns of time and memory: what is left is the same on every machine");
+                    "omit the columns of time and memory: the rest is the same on every machine");
 }
 
 int run_jobs(const BenchFlags& flags, std::vector<BenchJob> jobs) {
@@ -276,7 +276,7 @@ void add_bench_command(CLI::App& app, const std::string& command_line, int& exit
   command
       ->add_option("--peer", flags->peers,
                    "NAME=FILE, repeatable: poses by another program, compared on the same sweeps; {sequence} in FILE "
-                   "stands for the name of each sequence")
+                   "is replaced by the name of each sequence")
       ->allow_extra_args(false);
   command
       ->add_option("--peer-figures", flags->peer_figures,

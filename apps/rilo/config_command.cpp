@@ -44,7 +44,7 @@ void add_config_command(CLI::App& app, int& exit_code) {
   command->footer(kConfigFooter);
   auto* dump = command->add_flag("--dump", flags->dump, "print the configuration as YAML");
   auto* check =
-      command->add_option("--check", flags->check, "check a file and say what is wrong with it")->check(path_given());
+      command->add_option("--check", flags->check, "check a file and report what is wrong")->check(path_given());
   dump->excludes(check);
   command->add_option("--config", flags->file, "start from this file")->check(path_given())->excludes(check);
   command->add_option("--set", flags->settings, "key=value, repeatable")->allow_extra_args(false)->excludes(check);

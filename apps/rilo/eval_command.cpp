@@ -29,7 +29,7 @@ struct EvalFlags {
 
 constexpr const char* kEvalFooter =
     R"(GT is a pose file or a data folder with ground truth; EST is a pose file. KITTI form (12 numbers a line) or TUM form
-(t x y z qx qy qz qw) is told from the first line. Both must be poses of the same sensor at the same instant of the
+(t x y z qx qy qz qw) is detected from the first line. Both must be poses of the same sensor at the same time within the
 sweep: rilo's are at the middle (pose_instant in metrics.json); for a drive simulator's folder --instant chooses the
 truth. KITTI's own ground truth is in the camera frame: compare it with poses_camera.txt.
 
@@ -100,11 +100,11 @@ int eval(const EvalFlags& flags) {
 void add_flags(CLI::App& command, EvalFlags& flags) {
   command.add_option("GT", flags.truth, "true poses: a file, or a data folder")->required();
   command.add_option("EST", flags.estimate, "estimated poses")->required();
-  command.add_option("MORE", flags.more, "further pairs GT EST, one a sequence");
+  command.add_option("MORE", flags.more, "further pairs GT EST, one per sequence");
   command
       .add_option_function<std::string>(
           "--instant", [&flags](const std::string& text) { flags.instant = parse_truth_instant(text).value(); },
-          "instant of the true poses when GT is a drive simulator's folder. Default: mid")
+          "time within the sweep of the true poses when GT is a drive simulator's folder. Default: mid")
       ->check(CLI::IsMember({"start", "mid", "end"}));
   command
       .add_option_function<std::string>(

@@ -1,4 +1,4 @@
-// The rilo command: parses, dispatches, and turns every error into one line and an exit code.
+// The rilo command: parses, dispatches, and maps every error to one line and an exit code.
 #include <csignal>
 #include <iostream>
 

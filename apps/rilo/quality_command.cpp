@@ -1,4 +1,4 @@
-// rilo quality: how crisp the map is that a trajectory builds; needs no ground truth.
+// rilo quality: how sharp the map of a trajectory is; needs no ground truth.
 #include <algorithm>
 #include <cstdint>
 #include <iostream>
@@ -45,9 +45,9 @@ struct QualityRun {
 
 constexpr const char* kQualityFooter =
     R"(DATA as for rilo run, read with the same options. POSES: of the LiDAR, KITTI form (12 numbers a line) or TUM form
-(t x y z qx qy qz qw), told from the first line; at the middle of the sweep, as rilo's are. Sweeps with per-point
+(t x y z qx qy qz qw), detected from the first line; at the middle of the sweep, as rilo's are. Sweeps with per-point
 times are motion-compensated with the velocity between the neighbouring poses (--point-times none: they are already).
-Smaller is crisper. Compare trajectories on the same sweeps with the same options; below about 1 % it is noise.
+Smaller is sharper. Compare trajectories on the same sweeps with the same options; below about 1 % it is noise.
 
 Examples:
   rilo quality kitti/sequences/00 results/00/poses_lidar.txt
@@ -160,11 +160,11 @@ void add_map_flags(CLI::App& command, MapQualityConfig& config) {
   add_count(command, "--window", config.window_sweeps, kMany, "consecutive sweeps that make one map");
   add_count(command, "--sweep-step", config.sweep_step, kMany,
             "1: all of them go into it; 3: sweeps 0, 3, 6 and so on");
-  add_number(command, "--min-range", config.min_range_m, 0, 1e4, "points nearer to the sensor (m) are left out");
-  add_number(command, "--max-range", config.max_range_m, 0, 1e4, "points farther away (m) are left out");
+  add_number(command, "--min-range", config.min_range_m, 0, 1e4, "points nearer to the sensor (m) are dropped");
+  add_number(command, "--max-range", config.max_range_m, 0, 1e4, "points farther away (m) are dropped");
   add_number(command, "--voxel", config.voxel_m, 0, 1e3, "one point of a sweep per voxel of this size (m); 0: all");
   add_number(command, "--radius", config.radius_m, 1e-6, 1e3, "of the neighbourhood that a plane is fitted to (m)");
-  add_count(command, "--points", config.points_per_sweep, kMany, "at most that many points of a sweep, at random");
+  add_count(command, "--points", config.points_per_sweep, kMany, "at most that many points per sweep, at random");
   add_count(command, "--samples", config.samples_per_window, kMany, "places of a map that are looked at");
   add_count(command, "--seed", config.seed, std::numeric_limits<std::int64_t>::max(), "of the random choice");
   add_count(command, "--threads", config.threads, 1024,
@@ -174,9 +174,9 @@ void add_map_flags(CLI::App& command, MapQualityConfig& config) {
 void add_flags(CLI::App& command, QualityFlags& flags) {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   command.add_option("DATA", flags.data, "folder or file with sweeps")->required()->check(path_given());
-  command.add_option("POSES", flags.poses, "poses of the LiDAR, one a sweep")->required()->check(path_given());
+  command.add_option("POSES", flags.poses, "poses of the LiDAR, one per sweep")->required()->check(path_given());
   add_count(command, "--start", flags.start, kMost,
-            "leave out that many sweeps; by index, the next one has the first pose, as after run --start");
+            "skip that many sweeps; by index, the next one has the first pose, as after run --start");
   add_count(command, "--count", flags.count, kMost, "look at that many sweeps; 0: all");
   command
       .add_option_function<std::string>(
@@ -195,7 +195,7 @@ void add_flags(CLI::App& command, QualityFlags& flags) {
 
 void add_quality_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<QualityFlags>();
-  CLI::App* command = app.add_subcommand("quality", "how crisp a trajectory's map is; needs no ground truth");
+  CLI::App* command = app.add_subcommand("quality", "how sharp a trajectory's map is; needs no ground truth");
   command->footer(kQualityFooter);
   add_flags(*command, *flags);
   command->callback([flags, &exit_code] { exit_code = quality(*flags); });

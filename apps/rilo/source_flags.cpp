@@ -30,7 +30,7 @@ void add_time_flags(CLI::App& command, SourceRequest& flags) {
   add_choice(
       command, "--point-time-unit",
       [&options](const std::string& text) { options.point_time_unit = parse_point_time_unit(text).value(); },
-      {"infer", "s", "ms", "us", "ns", "fraction"}, "unit of the time field when it cannot be told from the data");
+      {"infer", "s", "ms", "us", "ns", "fraction"}, "unit of the time field when it cannot be inferred from the data");
   add_choice(
       command, "--point-time-reference",
       [&options](const std::string& text) { options.point_time_reference = parse_point_time_reference(text).value(); },

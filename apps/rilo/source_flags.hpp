@@ -1,4 +1,4 @@
-// Command-line options that say how data are read; shared by run, quality and info.
+// Command-line options on how data are read; shared by run, quality and info.
 #pragma once
 
 #include "cli11_app.hpp"

@@ -11,7 +11,7 @@ class ParseError;
 
 namespace rilo::cli {
 
-/// One line: the word that was not understood, the one that may have been meant, and where the help is.
+/// One line: the unknown word, the nearest known one, and where the help is.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv);
 
 }  // namespace rilo::cli

@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t kReplaySweepBytes = 256U << 20U;
 constexpr const char* kViewFooter =
     R"(RESULTS is a folder that rilo run --out has written. The sweeps are read again from where the run had them (the path in
-metrics.json; --data when they have moved). Where they are no more, trajectory, figures and a map file in RESULTS (.ply
-or .pcd) are shown. Options that say how data are read must be those of the run; topic, elevation correction and
+metrics.json; --data when they have moved). Where they no longer exist, trajectory, figures and a map file in RESULTS (.ply
+or .pcd) are shown. Options on how data are read must be those of the run; topic, elevation correction and
 azimuth times are taken from metrics.json. Ctrl-C ends it.
 
 Examples:
@@ -46,7 +46,7 @@ struct ViewFlags {
   SourceRequest source;
 };
 
-/// What the run was told about the data, as far as its figures say so.
+/// Options of the run about the data, as far as its metrics have them.
 SourceOptions source_options(const ViewFlags& flags, const RunMetrics& metrics) {
   SourceOptions options = flags.source.options;
   if (options.topic.empty()) options.topic = metrics.topic;
@@ -70,7 +70,7 @@ std::unique_ptr<ScanSource> open_data(const ViewFlags& flags, const std::string&
   } catch (const IoError& error) {
     if (!flags.data.empty()) throw;
     note = "The sweeps cannot be read again: trajectory, figures and map alone.";
-    std::cerr << "rilo: warning: " << error.what() << " (--data says where the sweeps are now)\n";
+    std::cerr << "rilo: warning: " << error.what() << " (--data: where the sweeps are now)\n";
     return nullptr;
   }
 }
@@ -105,7 +105,7 @@ int replay(ViewFlags flags) {
   const fs::path folder = flags.results;
   const SavedRun saved = read_saved_run(folder);
   if (saved.killed) {
-    throw IoError({folder / "metrics.json", "", "no such file: the run was killed or is still going on",
+    throw IoError({folder / "metrics.json", "", "no such file: the run was killed or is still running",
                    "a finished run", "Run rilo run again"});
   }
   const RunRecord& run = saved.record;

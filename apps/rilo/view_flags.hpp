@@ -16,7 +16,7 @@ void wait_for_signal();
 /// What the rest of the options of a viewer are called, `--view-address` or `--address`.
 void add_address_flag(CLI::App& command, const std::string& name, ViewOptions& options);
 
-/// A port on the command line; whatever is no port is refused.
+/// A port on the command line; anything else is rejected.
 std::optional<std::uint16_t> parse_port(const std::string& text);
 
 }  // namespace rilo::cli

@@ -6,7 +6,7 @@ namespace rilo::python {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& name, const std::string& expected, const py::handle& object,
+[[noreturn]] void reject(const std::string& name, const std::string& expected, const py::handle& object,
                          const std::string& remedy = "") {
   throw py::value_error(name + ": got " + description_of(object) + "; expected " + expected +
                         (remedy.empty() ? "" : ". " + remedy));
@@ -17,7 +17,7 @@ bool holds(const py::array& array) {
   return py::isinstance<py::array_t<Scalar>>(array);  // native byte order, too
 }
 
-/// Element (row, column), wherever numpy keeps it; column 0 of a flat array.
+/// Element (row, column) in any numpy layout; column 0 of a flat array.
 template <typename Scalar>
 Scalar element(const py::array& array, py::ssize_t row, py::ssize_t column) {
   const auto* bytes = static_cast<const char*>(array.data()) + row * array.strides(0);
@@ -47,7 +47,7 @@ bool is_dense(const py::array& array) {
 
 py::array flat_array(const py::object& object, const char* name, std::size_t points, const std::string& expected) {
   py::array array = array_of(object, name);
-  if (array.ndim() != 1) refuse(name, "shape (N,), " + expected, array);
+  if (array.ndim() != 1) reject(name, "shape (N,), " + expected, array);
   if (static_cast<std::size_t>(array.shape(0)) != points) {
     throw py::value_error(std::string(name) + ": " + std::to_string(array.shape(0)) + " values for " +
                           std::to_string(points) + " points");
@@ -93,19 +93,19 @@ Column<Eigen::Vector3f> points_of(const py::object& object) {
   constexpr const char* kExpected = "shape (N, 3) or (N, 4), float32 or float64";
   py::array array = array_of(object, "points");
   if (!array.dtype().attr("names").is_none()) {
-    refuse("points", kExpected, array, "Of fields: np.stack([a[\"x\"], a[\"y\"], a[\"z\"]], axis=1)");
+    reject("points", kExpected, array, "Of fields: np.stack([a[\"x\"], a[\"y\"], a[\"z\"]], axis=1)");
   }
   if (array.ndim() != 2 || (array.shape(1) != 3 && array.shape(1) != 4)) {
     const bool turned = array.ndim() == 2 && (array.shape(0) == 3 || array.shape(0) == 4);
     const bool wide = array.ndim() == 2 && array.shape(1) > 4;
-    refuse("points", kExpected, array, turned ? "Transpose it: points.T" : wide ? "Take points[:, :3]" : "");
+    reject("points", kExpected, array, turned ? "Transpose it: points.T" : wide ? "Take points[:, :3]" : "");
   }
   if (holds<float>(array)) {
     if (array.shape(1) == 3 && is_dense(array)) return column_in_place<Eigen::Vector3f>(std::move(array));
     auto points = copied_points<float>(array);
     return column_of(std::move(array), std::move(points));
   }
-  if (!holds<double>(array)) refuse("points", kExpected, array, "Convert it: points.astype(np.float32)");
+  if (!holds<double>(array)) reject("points", kExpected, array, "Convert it: points.astype(np.float32)");
   auto points = copied_points<double>(array);
   return column_of(std::move(array), std::move(points));
 }
@@ -117,7 +117,7 @@ Column<float> times_of(const py::object& object, std::size_t points) {
   std::vector<float> times(points);
   const bool narrow = holds<float>(array);
   if (!narrow && !holds<double>(array)) {
-    refuse("times_s", kExpected, array, "Times in other units or of a clock: register_frame(points, timestamps)");
+    reject("times_s", kExpected, array, "Times in other units or of a clock: register_frame(points, timestamps)");
   }
   for (std::size_t i = 0; i < points; ++i) {
     const auto row = static_cast<py::ssize_t>(i);
@@ -131,7 +131,7 @@ Column<std::uint16_t> rings_of(const py::object& object, std::size_t points) {
   py::array array = flat_array(object, "rings", points, kExpected);
   if (holds<std::uint16_t>(array) && is_dense(array)) return column_in_place<std::uint16_t>(std::move(array));
   const char kind = array.dtype().kind();
-  if (kind != 'i' && kind != 'u') refuse("rings", kExpected, array);
+  if (kind != 'i' && kind != 'u') reject("rings", kExpected, array);
   const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
   std::vector<std::uint16_t> rings(points);
   for (std::size_t i = 0; i < points; ++i) {
@@ -149,7 +149,7 @@ std::vector<std::int64_t> stamps_of(const py::object& object, std::size_t poses)
   const py::array array = array_of(object, "stamps_ns");
   const char kind = array.dtype().kind();
   if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != poses || (kind != 'i' && kind != 'u')) {
-    refuse("stamps_ns", "shape (" + std::to_string(poses) + ",), integers", array);
+    reject("stamps_ns", "shape (" + std::to_string(poses) + ",), integers", array);
   }
   const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
   return {numbers.data(), numbers.data() + numbers.size()};
@@ -160,7 +160,7 @@ std::vector<SE3> poses_of(const py::object& object, const char* name) {
   const char kind = array.dtype().kind();
   if (array.ndim() != 3 || (array.shape(1) != 4 && array.shape(1) != 3) || array.shape(2) != 4 ||
       (kind != 'f' && kind != 'i')) {
-    refuse(name, "poses of shape (N, 4, 4) or (N, 3, 4)", array);
+    reject(name, "poses of shape (N, 4, 4) or (N, 3, 4)", array);
   }
   const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>(array);
   const auto values = numbers.unchecked<3>();

@@ -26,7 +26,7 @@ struct Column {
   std::span<const Value> values;
 };
 
-/// The points of an (N, 3) or (N, 4) array of float32 or float64; what stands in the fourth column is ignored.
+/// The points of an (N, 3) or (N, 4) array of float32 or float64; the fourth column is ignored.
 /// (N, 3) float32 in C order is used in place. @throws ValueError saying what came instead.
 Column<Eigen::Vector3f> points_of(const py::object& object);
 

@@ -21,7 +21,7 @@ std::int64_t monotonic_ns() {
       .count();
 }
 
-// The distance of sweeps whose stamps nobody gives.
+// Step between sweeps without stamps.
 constexpr double kAssumedPeriodS = 0.1;
 constexpr std::int64_t kAssumedPeriodNs = 100'000'000;
 

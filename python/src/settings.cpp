@@ -13,7 +13,7 @@ namespace py = pybind11;
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& name, const py::handle& value, const char* expected) {
+[[noreturn]] void reject(const std::string& name, const py::handle& value, const char* expected) {
   throw py::type_error(name + ": got " + py::repr(value).cast<std::string>() + " of type " +
                        py::str(py::type::of(value).attr("__name__")).cast<std::string>() + "; expected " + expected);
 }
@@ -26,12 +26,12 @@ std::string value_text(const std::string& key, const py::handle& value) {
     return py::str(value).cast<std::string>();
   }
   if (py::hasattr(value, "item")) return value_text(key, value.attr("item")());  // numpy's numbers
-  refuse(key, value, "a number, a bool or text");
+  reject(key, value, "a number, a bool or text");
 }
 
 void flatten(const std::string& prefix, const py::dict& values, std::vector<std::string>& settings) {
   for (const auto& [name, value] : values) {
-    if (!py::isinstance<py::str>(name)) refuse("settings", name, "keys that are text");
+    if (!py::isinstance<py::str>(name)) reject("settings", name, "keys that are text");
     const std::string key = prefix + name.cast<std::string>();
     if (py::isinstance<py::dict>(value)) {
       flatten(key + ".", py::reinterpret_borrow<py::dict>(value), settings);
@@ -50,10 +50,10 @@ std::vector<std::string> texts_of(const py::object& settings) {
   }
   constexpr const char* kExpected = "a dict or a list of \"key=value\"";
   if (py::isinstance<py::str>(settings) || !py::isinstance<py::sequence>(settings)) {
-    refuse("settings", settings, kExpected);
+    reject("settings", settings, kExpected);
   }
   for (const py::handle& text : settings) {
-    if (!py::isinstance<py::str>(text)) refuse("settings", text, "\"key=value\"");
+    if (!py::isinstance<py::str>(text)) reject("settings", text, "\"key=value\"");
     texts.push_back(text.cast<std::string>());
   }
   return texts;
@@ -63,7 +63,7 @@ OdometryConfig base_of(const py::object& config) {
   if (config.is_none()) return {};
   if (py::isinstance<py::dict>(config)) return with_overrides({}, texts_of(config));
   if (py::hasattr(config, "__fspath__")) return load_config(config.cast<std::filesystem::path>());
-  if (!py::isinstance<py::str>(config)) refuse("config", config, "a dict, YAML text or the path of a YAML file");
+  if (!py::isinstance<py::str>(config)) reject("config", config, "a dict, YAML text or the path of a YAML file");
   const auto text = config.cast<std::string>();
   if (text.ends_with(".yaml") || text.ends_with(".yml")) return load_config(text);
   return text.empty() ? OdometryConfig{} : parse_config(text, "config");

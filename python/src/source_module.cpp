@@ -28,7 +28,7 @@ py::object column(const SharedSweep& shared, const std::vector<Scalar>& values) 
   return column<Scalar>(shared, values, {static_cast<py::ssize_t>(values.size())});
 }
 
-/// What a word stands for. @throws ValueError with the words that there are.
+/// The value of a word. @throws ValueError with the words that there are.
 template <typename Parse>
 auto choice(const char* name, const std::string& text, const Parse& parse, const char* expected) {
   const auto value = parse(text);

@@ -41,7 +41,7 @@ struct BenchRunOptions {
 /// The run of that sequence.
 RunRequest run_request(const BenchSequence& sequence, const BenchRunOptions& flags);
 
-/// Runs one cell, then compares the sequence's peers on the same sweeps. Whatever goes wrong stands in the cells. An
+/// Runs one cell, then compares the sequence's peers on the same sweeps. Errors are recorded in the cells. An
 /// interrupted cell is not among them.
 std::vector<BenchCell> run_cell(const BenchSequence& sequence, const BenchConfiguration& configuration,
                                 const BenchRunOptions& flags);

@@ -34,10 +34,10 @@ class CellFolder {
 
   std::filesystem::path file(const BenchJob& job) const { return folder_ / (job.key + ".json"); }
   std::filesystem::path log(const BenchJob& job) const { return folder_ / (job.key + ".log"); }
-  /// As it stands in results; empty when it is not kept.
+  /// As written in results; empty when it is not kept.
   std::string log_name(const BenchJob& job) const { return kept_ ? "cells/" + job.key + ".log" : ""; }
 
-  /// Nothing where there is no such file, or none that can be understood: the cell is run again.
+  /// Nothing where there is no such file, or none that can be read: the cell is run again.
   std::optional<CellRecord> read(const BenchJob& job) const;
   /// @throws IoError
   void write(const BenchJob& job, const CellRecord& record) const;
@@ -48,7 +48,7 @@ class CellFolder {
   bool kept_;
 };
 
-/// The figures of a cell; empty ones are left out where it failed or is a peer's.
+/// The figures of a cell; empty ones are omitted where it failed or is a peer's.
 nlohmann::json metrics_json(const BenchCell& cell);
 
 /// A cell without loss.

@@ -1,4 +1,4 @@
-// What a benchmark has to do: one configuration on one sequence, as often as told.
+// What a benchmark has to do: one configuration on one sequence, as often as requested.
 #pragma once
 
 #include <cstddef>

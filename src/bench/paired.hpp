@@ -30,7 +30,7 @@ std::vector<BenchComparison> bench_comparisons(const std::vector<BenchCell>& cel
 /// The comparisons with the drives that are lost, and the ratio to the best peer of each sequence. Empty without peers.
 std::vector<TitledTable> paired_tables(const std::vector<BenchCell>& cells);
 
-/// paired.csv: a row a comparison, without loss.
+/// paired.csv: one row per comparison, without loss.
 TextTable paired_csv(const std::vector<BenchCell>& cells);
 
 }  // namespace rilo

@@ -84,7 +84,7 @@ std::string counted_average(const std::vector<bool>& chosen) {
   return fmt::format("Avg of our {}", std::count(chosen.begin(), chosen.end(), true));
 }
 
-// Tables II and III: a row a method, a column a sequence.
+// Tables II and III: one row per method, one column per sequence.
 template <typename Names>
 TextTable method_table(const std::vector<PaperRow>& paper, const std::vector<OurRow>& ours, const Names& sequences,
                        const std::string& figure, int digits) {
@@ -227,15 +227,15 @@ std::vector<TitledTable> kitti_tables(const std::vector<BenchCell>& cells, Measu
   const std::vector<OurRow> ours = our_rows(cells);
   const std::string protocol =
       "Ours: 0° and 0.205° are the two protocols of the field, points as recorded and with KITTI's elevation "
-      "correction typed in, both without Rilo's own estimate (elevation.enabled=false); \"own estimate\" is told "
-      "nothing and finds the elevation error itself. The paper does not name its protocol.";
+      "correction given, both without Rilo's own estimate (elevation.enabled=false); \"own estimate\" gets "
+      "no correction and estimates the elevation offset. The paper does not name its protocol.";
   std::vector<TitledTable> tables = {
       {"Table I: APE on KITTI (m)", table_1(ours),
        "Columns of the paper as printed (its Fast-gicp RMSE of 00 and 01 contradict their means and deviations); "
        "\"paper\" is "
        "its own method. " +
            protocol},
-      {"Table II: time a sweep on KITTI (ms)", method_table(paper_table_2(), ours, kitti_sequences(), "ms_mean", 1),
+      {"Table II: time per sweep on KITTI (ms)", method_table(paper_table_2(), ours, kitti_sequences(), "ms_mean", 1),
        "The paper's times are of its own machine; rows and averages as printed (those of DLO and KISS-ICP do not "
        "follow "
        "from their rows: 27.9 and 26.7). Ours: mean of all sweeps, reading excluded."}};

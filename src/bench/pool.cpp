@@ -62,7 +62,7 @@ std::string reason_of(int status) {
                      signal == SIGKILL ? "; the memory may be exhausted" : "");
 }
 
-// In the child. No exception may get out: it would go on as if it were the parent.
+// In the child. No exception may get out: it would continue as if it were the parent.
 [[noreturn]] void work_and_exit(const BenchJob& job, const CellFolder& folder, BenchRunOptions flags,
                                 std::size_t attempt) {
   try {

@@ -9,7 +9,7 @@
 
 namespace rilo {
 
-/// What the one who waits is told.
+/// Told to the caller that waits.
 struct BenchEvents {
   std::function<void(const BenchJob&)> started;
   std::function<void(const BenchJob&, const CellRecord&)> finished;  ///< for good: retries included

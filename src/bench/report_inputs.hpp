@@ -15,7 +15,7 @@ struct ReportInput {
   std::filesystem::path path;
 };
 
-/// `[[SEQUENCE/]NAME=]PATH`. A word that is a path as it stands is one, whatever it holds.
+/// `[[SEQUENCE/]NAME=]PATH`. A word that is an existing path is a path, whatever it contains.
 /// @throws IoError when the path is neither results nor poses, with what lies there and what was expected.
 ReportInput parse_report_input(const std::string& word);
 

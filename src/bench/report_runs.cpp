@@ -14,8 +14,8 @@ namespace rilo {
 
 namespace {
 
-/// Whether two runs are over the same data: the same sweep has the same stamp, be it at another instant of the sweep.
-/// Data may have been moved between the runs, so that paths say nothing; without a sweep in common they decide.
+/// Whether two runs are over the same data: the same sweep has the same stamp, even if at another time within the
+/// sweep. Data may have been moved between the runs, so that paths say nothing; without a sweep in common they decide.
 bool same_data(const RunRecord& a, const RunRecord& b) {
   constexpr std::int64_t kNear_ns = 1'000'000'000;
   for (std::size_t i = 0, k = 0; i < a.indices.size() && k < b.indices.size();) {
@@ -107,7 +107,7 @@ std::string default_name(const ReportInput& input, const std::string& sequence) 
   return name == sequence && !above.empty() && above != "." && above != ".." ? above : name;
 }
 
-/// Names within a sequence must differ: equal ones are told apart by their paths, and if need be by a number.
+/// Names within a sequence must differ: equal ones are distinguished by their paths, and if need be by a number.
 void set_names(ReportSequence& sequence) {
   for (ReportEntry& entry : sequence.entries) {
     if (entry.input.name.empty()) entry.input.name = default_name(entry.input, sequence.name);

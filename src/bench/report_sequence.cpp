@@ -31,7 +31,7 @@ std::string with_sentences(const std::vector<std::string>& sentences, const std:
   return text;
 }
 
-/// The truth that the user gave, for one run. A data folder stands for the truth in it.
+/// The truth that the user gave, for one run. For a data folder, the truth in it.
 void evaluate_given(const fs::path& truth, const PoseFlags& flags, RunRecord& run) {
   if (!fs::is_directory(truth)) {
     evaluate_run(run, GivenPoses{truth, flags.camera_frame, flags.max_gap_s});
@@ -92,7 +92,7 @@ Placed placed_run(const ReportSequence& sequence, const ReportEntry& entry) {
   return placed;
 }
 
-/// Poses of another program and the true ones at the same instants; `truth` stays empty when there is none.
+/// Poses of another program and the true ones at the same times; `truth` stays empty when there is none.
 struct PairedPeer {
   std::vector<SE3> estimate;
   std::vector<SE3> truth;

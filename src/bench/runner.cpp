@@ -31,7 +31,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Writing all results anew after each cell may take this share of the time.
+// Writing all results again after each cell may take this share of the time.
 constexpr int kShareOfWriting = 20;
 
 std::string prepared(const std::string& out) {

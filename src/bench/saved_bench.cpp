@@ -54,7 +54,7 @@ std::string bench_notice(const Json& json, std::size_t failed) {
   std::string text;
   if (run < planned) {
     text =
-        fmt::format("The benchmark was interrupted or is still going on: {} of {} cells are finished. ", run, planned);
+        fmt::format("The benchmark was interrupted or is still running: {} of {} cells are finished. ", run, planned);
   }
   if (failed > 0) text += fmt::format("{} failed; see the list below.", counted(failed, "cell"));
   return text;

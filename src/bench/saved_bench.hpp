@@ -7,7 +7,7 @@
 
 namespace rilo {
 
-/// `path` as in read_saved_results(). @throws IoError when it is no benchmark's, or holds no cell.
+/// `path` as in read_saved_results(). @throws IoError when it is not a benchmark's, or holds no cell.
 ExperimentReport read_saved_bench(const std::filesystem::path& path);
 
 }  // namespace rilo

@@ -12,7 +12,7 @@ namespace rilo {
 
 namespace {
 
-/// The last value of a key counts, as on the command line; what is no "key=value" stands as a key of its own.
+/// The last value of a key counts, as on the command line; what is not "key=value" is a key of its own.
 std::map<std::string, std::string> map_of(const std::vector<std::string>& settings) {
   std::map<std::string, std::string> result;
   for (const std::string& setting : settings) {

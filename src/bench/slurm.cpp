@@ -137,13 +137,13 @@ class SlurmRun {
     }
   }
 
-  // Such jobs were taken before: what is refused now is so for a while, because of the controller or of a limit.
+  // Such jobs were taken before: a rejection now is temporary, because of the controller or of a limit.
   void submit_again() {
     try {
       submit();
-      refusals_ = 0;
+      rejections_ = 0;
     } catch (const RunError&) {
-      if (++refusals_ > kMostQueueFailures) throw;
+      if (++rejections_ > kMostQueueFailures) throw;
     }
   }
 
@@ -159,7 +159,7 @@ class SlurmRun {
     queue_failures_ = tasks ? 0 : queue_failures_ + 1;
     if (queue_failures_ > kMostQueueFailures) {
       throw RunError(RunErrorKind::kUnexpected,
-                     "--on slurm: squeue fails; the jobs go on, and the same command waits for them");
+                     "--on slurm: squeue fails; the jobs continue, and the same command waits for them");
     }
     if (!tasks) return;
     std::set<std::string> queued;
@@ -225,7 +225,7 @@ class SlurmRun {
   std::map<std::size_t, std::size_t> attempts_;
   std::chrono::milliseconds interval_ = kShortestLook;
   int queue_failures_ = 0;
-  int refusals_ = 0;  // by sbatch
+  int rejections_ = 0;  // by sbatch
 };
 
 }  // namespace

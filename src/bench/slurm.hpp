@@ -25,7 +25,7 @@ struct SlurmOrder {
 void run_on_slurm(const std::vector<BenchJob>& open, const std::vector<BenchJob>& all, const CellFolder& folder,
                   const SlurmOrder& order, const BenchEvents& events);
 
-/// In a task: that the cell is the one that was submitted. Otherwise `folder` has the refusal as the result of that
+/// In a task: that the cell is the one that was submitted. Otherwise `folder` has the rejection as the result of that
 /// one, for the one who waits. @throws RunError, kBadData,
 void check_submitted(const std::filesystem::path& out, std::size_t number, const BenchJob& job,
                      const CellFolder& folder);

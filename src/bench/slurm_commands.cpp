@@ -142,7 +142,7 @@ std::string submit_array(const std::filesystem::path& script, const std::string&
   const std::string line = last.substr(last.find_last_of('\n') + 1);
   std::string number = line.substr(0, line.find(';'));
   if (result.code != 0 || !number_of(number)) {
-    throw RunError(RunErrorKind::kUsage, "--on slurm: sbatch refused the jobs: " + last);
+    throw RunError(RunErrorKind::kUsage, "--on slurm: sbatch rejected the jobs: " + last);
   }
   return number;
 }

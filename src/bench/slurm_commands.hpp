@@ -25,7 +25,7 @@ struct SlurmTask {
   std::string id() const { return array + "_" + std::to_string(index); }
 };
 
-/// Lines "array|index|state|name" as our call of squeue gives them; others are left out.
+/// Lines "array|index|state|name" as our call of squeue gives them; others are ignored.
 std::vector<SlurmTask> parse_queue(const std::string& text);
 
 /// "0-2,5,7-8" of ascending numbers.

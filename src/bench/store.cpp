@@ -97,7 +97,7 @@ class StoreFile {
 
  private:
   [[noreturn]] void fail() const {
-    throw IoError({file_, "", std::string("SQLite3 says: ") + sqlite3_errmsg(database_.get()), kExpectedStore, ""});
+    throw IoError({file_, "", std::string("SQLite3: ") + sqlite3_errmsg(database_.get()), kExpectedStore, ""});
   }
 
   fs::path file_;

@@ -27,7 +27,7 @@ struct BenchStore {
 
 constexpr const char* kStoreName = "results.sqlite";
 
-/// Writes the whole file anew, under a temporary name first: readers see the old or the new one, and neither locks nor
+/// Writes the whole file again, under a temporary name first: readers see the old or the new one, and neither locks nor
 /// a journal are needed where several machines share the folder. @throws IoError
 void write_store(const std::filesystem::path& file, const BenchStore& store);
 

@@ -42,7 +42,7 @@ std::string or_dash(const MaybeCount& count) { return count ? std::to_string(*co
 
 std::string or_dash(const MaybeNumber& value) { return value ? nlohmann::json(*value).dump() : "-"; }
 
-// "ok 11, initialising 1"; what did not occur is left out.
+// "ok 11, initialising 1"; what did not occur is omitted.
 std::string statuses(const RunMetrics& metrics) {
   std::string text;
   for (const auto& [name, count] : metrics.status) {
@@ -68,8 +68,9 @@ TitledTable accuracy(const std::vector<BenchCell>& cells) {
     result.table.rows.push_back(row);
   }
   result.note =
-      "APE after SE(3) alignment, unaligned with the first poses made equal; RPE a sweep, rmse; given °: added to the "
-      "points' elevation angles as told; own °: added on top of it, found by Rilo itself, at the last sweep.";
+      "APE after SE(3) alignment, unaligned with the first poses made equal; RPE per sweep, rmse; given °: added to "
+      "the "
+      "points' elevation angles as given; own °: added on top of it, estimated by Rilo, at the last sweep.";
   return result;
 }
 
@@ -89,7 +90,7 @@ TitledTable effort(const std::vector<BenchCell>& cells, MeasuredColumns measured
     row.push_back(statuses(cell.metrics));
     result.table.rows.push_back(row);
   }
-  result.note = measured == MeasuredColumns::kWith ? "Milliseconds a sweep without reading. " : "";
+  result.note = measured == MeasuredColumns::kWith ? "Milliseconds per sweep without reading. " : "";
   result.note += "selected: sweeps that began with the coarse result; coarse: that ran the coarse stage.";
   return result;
 }
@@ -117,7 +118,7 @@ TitledTable averages(const std::vector<BenchCell>& cells, MeasuredColumns measur
   return result;
 }
 
-// A row a sequence, a column a configuration: what an experiment is read from.
+// One row per sequence, one column per configuration.
 TitledTable by_sequence(const std::vector<BenchCell>& cells, const std::vector<BenchSummary>& columns,
                         const std::string& key) {
   const BenchFigure& figure = bench_figure(key);

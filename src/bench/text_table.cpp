@@ -6,7 +6,7 @@ namespace rilo {
 
 namespace {
 
-// Code points: bytes that go on with a character of UTF-8 do not count.
+// Code points: continuation bytes of UTF-8 do not count.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));

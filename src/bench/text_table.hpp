@@ -13,7 +13,7 @@ struct TextTable {
   std::vector<std::vector<std::string>> rows;
   std::size_t left = 1;
 
-  /// Columns padded with blanks, a line a row.
+  /// Columns padded with blanks, one line per row.
   std::string plain() const;
   /// A Markdown table; bars in cells are escaped.
   std::string markdown() const;

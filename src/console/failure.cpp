@@ -45,7 +45,7 @@ Failure current_failure() {
   } catch (const std::bad_alloc&) {
     return {kUnexpected, "out of memory"};
   } catch (const std::system_error& error) {
-    // Of threads and processes that could not be started: "Resource temporarily unavailable" alone helps nobody.
+    // Of threads and processes that could not be started: "Resource temporarily unavailable" alone is not helpful.
     const bool exhausted = error.code() == std::errc::resource_unavailable_try_again;
     return {kUnexpected, error.what() + std::string(exhausted ? ": out of memory, or of threads and processes" : "")};
   } catch (const std::exception& error) {

@@ -11,7 +11,7 @@ namespace rilo {
 
 namespace {
 
-// Of the descriptor: 0 it is ours, EWOULDBLOCK somebody else has it, else the file system cannot lock it.
+// Of the descriptor: 0 it is ours, EWOULDBLOCK another process has it, else the file system cannot lock it.
 int try_lock(int descriptor) {
   if (descriptor < 0) return errno;
   return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;

@@ -14,7 +14,7 @@ constexpr std::chrono::seconds kLineInterval{5};
 constexpr std::size_t kBarWidth = 30;
 const std::string kClearLine = "\r\033[K";
 
-// A closed standard error is no reason to stop: unlike fmt::print, this does not throw.
+// A closed standard error is not a reason to stop: unlike fmt::print, this does not throw.
 void show(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);

@@ -16,7 +16,7 @@ class Progress {
   /// `note`: a word on the current item (a status that is worth showing).
   void update(std::size_t done, const std::string& note = {});
 
-  /// A line of its own; the bar goes on below it.
+  /// A line of its own; the bar continues below it.
   void say(const std::string& text);
 
   /// Ends the bar's line.

@@ -10,7 +10,7 @@
 
 namespace rilo {
 
-/// Indented; bytes of file names that are no UTF-8 are replaced rather than refused.
+/// Indented; bytes of file names that are not UTF-8 are replaced.
 std::string json_text(const nlohmann::json& json);
 
 /// `text` with such bytes replaced.

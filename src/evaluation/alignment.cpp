@@ -24,7 +24,8 @@ Eigen::Matrix3d nearest_rotation(const Svd& svd) {
   return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
-/// The turn about the unit vector `axis` that brings the rotations summed up in N = Σ R_truth (R R_estimate)ᵀ together.
+/// The rotation about the unit vector `axis` that brings the rotations summed up in N = Σ R_truth (R R_estimate)ᵀ
+/// together.
 Eigen::Matrix3d best_turn_about(const Eigen::Vector3d& axis, const Eigen::Matrix3d& N) {
   const double cosine = N.trace() - axis.dot(N * axis);
   const double sine = (hat(axis).transpose() * N).trace();

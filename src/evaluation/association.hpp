@@ -9,7 +9,7 @@
 
 namespace rilo {
 
-/// Two trajectories of equal length; element i of each belongs to the same instant.
+/// Two trajectories of equal length; element i of each belongs to the same time.
 struct MatchedPoses {
   std::vector<SE3> truth;
   std::vector<SE3> estimate;

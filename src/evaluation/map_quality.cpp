@@ -141,7 +141,7 @@ Place look_at(const WindowMap& map, const Tree& tree, const Eigen::Vector3d& cen
   return place;
 }
 
-// More than the machine has, if so told.
+// More than the machine has, if configured.
 std::size_t workers_for(int threads) {
   const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   return std::max(allowed, static_cast<std::size_t>(threads));

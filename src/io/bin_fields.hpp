@@ -1,4 +1,4 @@
-// The columns of a .bin record, as told.
+// The columns of a .bin record, as given.
 #pragma once
 
 #include <filesystem>

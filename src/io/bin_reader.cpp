@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<std::string_view, 12> kKnown{"x", "y", "z",           "intensity", "i",          "time",
                                                   "t", "_", "offset_time", "timestamp", "time_stamp", "ring"};
 
-[[noreturn]] void refuse(const std::string& fields, const std::string& why) {
+[[noreturn]] void reject(const std::string& fields, const std::string& why) {
   throw std::invalid_argument("bin_fields " + in_quotes(fields) + ": " + why +
                               "; give the columns of a record in order, for example x,y,z,intensity,time,ring, with _ "
                               "for a column to ignore");
@@ -34,15 +34,15 @@ std::vector<Field> parse_bin_fields(const std::string& text) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string name = lower_case(trimmed(std::string_view(text).substr(begin, end - begin)));
     if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end())
-      refuse(text, "unknown column " + in_quotes(name));
+      reject(text, "unknown column " + in_quotes(name));
     const auto same = [&](const Field& field) { return field.name == name; };
-    if (name != "_" && std::any_of(fields.begin(), fields.end(), same)) refuse(text, in_quotes(name) + " twice");
+    if (name != "_" && std::any_of(fields.begin(), fields.end(), same)) reject(text, in_quotes(name) + " twice");
     fields.push_back({name, ScalarType::kFloat32, 1});
     begin = end + 1;
   }
   for (const char* axis : {"x", "y", "z"}) {
     const auto same = [&](const Field& field) { return field.name == axis; };
-    if (std::none_of(fields.begin(), fields.end(), same)) refuse(text, std::string("no column ") + axis);
+    if (std::none_of(fields.begin(), fields.end(), same)) reject(text, std::string("no column ") + axis);
   }
   return fields;
 }
@@ -62,7 +62,7 @@ bool has_rings_behind(const std::filesystem::path& file) {
       if (!(ring >= 0 && ring < kMostBeams && ring == std::floor(ring))) return false;
     }
   } catch (const IoError&) {
-    return false;  // reported when its turn comes
+    return false;  // reported when it is reached
   }
   return true;
 }

@@ -38,7 +38,7 @@ class ByteCursor {
   }
   std::string_view take_bytes(std::size_t count, const char* what);
 
-  /// A length of 32 bits and so many bytes.
+  /// A length of 32 bits and that many bytes.
   std::string_view take_text(const char* what) { return take_bytes(take<std::uint32_t>(what), what); }
 
   /// To the next multiple of `size` from the first byte.

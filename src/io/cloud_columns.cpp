@@ -39,7 +39,7 @@ bool is_floating(ScalarType type) { return type == ScalarType::kFloat32 || type 
 namespace detail {
 namespace {
 
-// Calls `function` with a value of the C++ type that `type` stands for.
+// Calls `function` with a value of the C++ type of `type`.
 template <typename Function>
 auto with_type(ScalarType type, Function&& function) {
   switch (type) {

@@ -34,7 +34,7 @@ struct FieldRoles {
   std::vector<std::size_t> all() const;
 };
 
-/// Finds the roles by the usual names, whatever their case; CloudCompare's prefix "scalar_" is passed over.
+/// Finds the roles by the usual names, whatever their case; CloudCompare's prefix "scalar_" is ignored.
 /// @throws IoError when x, y or z is missing, or the time field that was asked for.
 FieldRoles find_roles(const std::vector<Field>& fields, const std::string& time_field,
                       const std::filesystem::path& file);
@@ -64,7 +64,7 @@ class PackedRows {
   /// Grows by one row of zeros.
   void add_row() { bytes_.resize(bytes_.size() + stride_); }
 
-  /// Parses a number into `field` of the last row; false when it is no number of the field's type.
+  /// Parses a number into `field` of the last row; false when it is not a number of the field's type.
   bool store_text(std::size_t field, std::string_view text);
 
   /// Copies a binary value into `field` of the last row.

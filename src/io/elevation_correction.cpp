@@ -43,7 +43,7 @@ void correct_elevation(std::vector<Eigen::Vector3f>& points, double offset_deg) 
     const Eigen::Vector3d p = point.cast<double>();
     const double horizontal = std::hypot(p.x(), p.y());
     if (!(horizontal > 0)) continue;  // on the axis, or NaN
-    // In the vertical plane through the point: (horizontal, z) turns by the offset.
+    // In the vertical plane through the point: (horizontal, z) rotates by the offset.
     const double shrink = cosine - sine * p.z() / horizontal;
     point = Eigen::Vector3d(p.x() * shrink, p.y() * shrink, cosine * p.z() + sine * horizontal).cast<float>();
   }

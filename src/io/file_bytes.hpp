@@ -20,7 +20,7 @@ struct FileBytes {
 };
 
 /// Reads at most `limit` bytes. Memory is what the file has, whatever it says about itself.
-/// @throws IoError: missing, a folder or another thing that is no regular file, not readable.
+/// @throws IoError: missing, a folder or another thing that is not a regular file, not readable.
 FileBytes read_file(const std::filesystem::path& path, std::size_t limit = static_cast<std::size_t>(-1));
 
 }  // namespace rilo::detail

@@ -110,7 +110,7 @@ std::optional<GroundTruth> read_ground_truth(const fs::path& data, TruthInstant 
   if (!fs::is_directory(data, ignored)) return std::nullopt;
   auto truth = find_truth(data, instant);
   if (!truth) return std::nullopt;
-  // Spinning sensors stamp the middle of the sweep (KITTI); the other instants are half a sweep away.
+  // Spinning sensors stamp the middle of the sweep (KITTI); the others are half a sweep away.
   if (truth->instant == "stamp" && instant != TruthInstant::kMid) {
     truth->warnings.push_back(truth->file.filename().string() + " is at the stamps, not at the " +
                               std::string(to_string(instant)) + " of the sweeps");

@@ -12,7 +12,7 @@
 
 namespace rilo {
 
-/// The instant of a sweep that a true pose is wanted for.
+/// The time within a sweep that a true pose is wanted for.
 enum class TruthInstant : std::uint8_t { kStart, kMid, kEnd };
 /// start, mid, end.
 std::string_view to_string(TruthInstant value);
@@ -24,7 +24,7 @@ struct GroundTruth {
   std::filesystem::path file;
   std::string frame;                  ///< how it came to the LiDAR frame
   std::string instant;                ///< "start", "mid", "end" or "stamp": what the file's poses refer to
-  std::vector<std::string> warnings;  ///< other instant than asked for, fewer or more poses than sweeps
+  std::vector<std::string> warnings;  ///< other time than asked for, fewer or more poses than sweeps
 };
 
 /// Looks for ground truth in the data folder: poses_{start,mid,end}.txt of a drive simulator, else poses_velo.txt

@@ -10,7 +10,7 @@
 
 namespace rilo::detail {
 
-/// The numbers behind `key` ("R:"); words that are not numbers are passed over. Empty when there is no such line.
+/// The numbers behind `key` ("R:"); other words are skipped. Empty when there is no such line.
 std::vector<double> calibration_row(const std::filesystem::path& file, std::string_view key);
 
 /// The transform of `R:` (row by row) and `T:` (m), its rotation as the file has it. Nothing when a row is missing or

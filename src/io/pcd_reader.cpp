@@ -32,7 +32,7 @@ struct PcdBody {
   std::string position(std::size_t offset) const { return "byte " + std::to_string(header.body_offset + offset); }
 };
 
-// Each value takes a character and a separator: so many points cannot be in fewer bytes.
+// Each value takes a character and a separator: more points do not fit into these bytes.
 void check_ascii_size(const PcdBody& body, std::size_t columns) {
   if (body.header.points <= (body.bytes().size() + 1) / (2 * columns)) return;
   body.fail(at_line(body.header.lines),

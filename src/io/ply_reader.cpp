@@ -1,4 +1,4 @@
-// PLY: ascii, binary little and big endian. Only the element "vertex" is kept; what stands before it is passed over.
+// PLY: ascii, binary little and big endian. Only the element "vertex" is kept; what comes before it is skipped.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -40,7 +40,7 @@ void check_count(const PlyBody& body, const PlyElement& element, std::size_t lea
 std::vector<Field> fields_of(const PlyElement& vertex) {
   std::vector<Field> fields;
   for (const PlyProperty& property : vertex.properties) {
-    // A list is no column: its name must not be taken for one.
+    // A list is not a column: its name must not be taken for one.
     fields.push_back({property.list_count ? "(list)" : property.name, property.type, 1});
   }
   return fields;
@@ -88,7 +88,7 @@ class BinaryCursor {
   std::size_t offset_ = 0;
 };
 
-// One row; `rows` is null for an element that is passed over.
+// One row; `rows` is null for an element that is skipped.
 void walk_binary_row(BinaryCursor& cursor, const PlyElement& element, PackedRows* rows) {
   if (rows != nullptr) rows->add_row();
   for (std::size_t i = 0; i < element.properties.size(); ++i) {

@@ -16,7 +16,7 @@ namespace rilo {
 namespace {
 
 // Without a known period, a sweep lasts between these (s). The range covers less than a factor of 1000, so that at most
-// one of s, ms, µs and ns fits; times that begin anew in every packet (1.3 ms) fit none.
+// one of s, ms, µs and ns fits; times that start again in every packet (1.3 ms) fit none.
 constexpr double kShortestSweep = 0.01;
 constexpr double kLongestSweep = 0.55;
 // Around a known period: a narrow sector at one end, jitter at the other.
@@ -44,7 +44,7 @@ double seconds_per(PointTimeUnit unit, double period_s) {
   return 1;
 }
 
-// Else the point is no measurement, and its time means nothing.
+// Else the point is not a measurement, and its time means nothing.
 bool is_measured(const Eigen::Vector3f& point) {
   const float square = point.squaredNorm();
   return square > 0 && square <= std::numeric_limits<float>::max();
@@ -88,7 +88,7 @@ class TimeField {
     return "point times in field " + name() + " from " + number(least()) + " to " + number(most()) + ", a span of " +
            number(span());
   }
-  [[noreturn]] void refuse(const std::string& why, const std::string& remedy) const {
+  [[noreturn]] void reject(const std::string& why, const std::string& remedy) const {
     throw IoError({file_, "", numbers(), why, remedy});
   }
 
@@ -118,7 +118,7 @@ void check_resolution(const TimeField& field) {
   if (field.raw().type != ScalarType::kFloat32) return;
   const double step = field.farthest() * std::numeric_limits<float>::epsilon();
   if (step <= 0.01 * field.span() || field.farthest() <= 1) return;
-  field.refuse("steps far below the span; float32 has steps of " + number(step) + " there",
+  field.reject("steps far below the span; float32 has steps of " + number(step) + " there",
                "Record the times as float64, or set point_times to none or azimuth");
 }
 
@@ -147,17 +147,17 @@ PointTimeUnit infer_unit(const TimeField& field, const std::optional<double>& pe
   const std::string range = number(shortest) + " to " + number(longest) + " s";
   if (looks_like_fraction(field)) {
     if (!fitting && period_s) return PointTimeUnit::kFraction;
-    field.refuse("either seconds or fractions of the sweep; both are possible", kSetUnit);
+    field.reject("either seconds or fractions of the sweep; both are possible", kSetUnit);
   }
   if (is_nanoseconds_by_name(field.raw())) {
     if (fitting && *fitting != PointTimeUnit::kNanoseconds) {
-      field.refuse("nanoseconds by the field's name, but the span fits a sweep of " + range + " only in " +
+      field.reject("nanoseconds by the field's name, but the span fits a sweep of " + range + " only in " +
                        std::string(to_string(*fitting)),
                    kSetUnit);
     }
     if (field.span() * 1e-9 <= longest) return PointTimeUnit::kNanoseconds;
   }
-  if (!fitting) field.refuse("a sweep of " + range + " in s, ms, us or ns", kSetUnit);
+  if (!fitting) field.reject("a sweep of " + range + " in s, ms, us or ns", kSetUnit);
   return *fitting;
 }
 
@@ -166,12 +166,12 @@ PointTimeReference infer_reference(const TimeField& field, PointTimeUnit unit, d
   if (unit == PointTimeUnit::kFraction || farthest_s <= kFarthestFromStamp) return PointTimeReference::kStamp;
   const bool wraps = unit == PointTimeUnit::kNanoseconds && size_of(field.raw().type) == 4;
   if (wraps) {
-    field.refuse(
+    field.reject(
         "less than " + number(kFarthestFromStamp) + " s from the sweep's stamp, since 32 bits of ns wrap after 4.3 s",
         "Set point_time_reference to stamp or epoch, or point_times to none");
   }
   if (field.least() * scale < kFarthestFromStamp) {
-    field.refuse("times around 0 (from the stamp) or all far from it (from an epoch)",
+    field.reject("times around 0 (from the stamp) or all far from it (from an epoch)",
                  "Set point_time_reference to stamp or epoch, or point_times to none");
   }
   return PointTimeReference::kEpoch;
@@ -184,11 +184,11 @@ std::string describe(const TimeField& field, const PointTimeConvention& conventi
          (convention.reference == PointTimeReference::kEpoch ? " since an epoch" : " since the sweep's stamp");
 }
 
-// The instant of the earliest point in ns.
+// The time of the earliest point in ns.
 std::int64_t epoch_stamp_ns(const TimeField& field, double scale) {
   const double stamp_s = field.least() * scale;
   if (std::abs(stamp_s) > 9.2e9) {
-    field.refuse("stamps that fit into 64 bits of ns", "Set point_time_unit to the unit of the times");
+    field.reject("stamps that fit into 64 bits of ns", "Set point_time_unit to the unit of the times");
   }
   if (is_floating(field.raw().type)) return std::llround(field.least() * (scale * 1e9));
   return field.raw().integers[field.first()] * static_cast<std::int64_t>(std::llround(scale * 1e9));
@@ -198,15 +198,15 @@ std::int64_t epoch_stamp_ns(const TimeField& field, double scale) {
 void check_against(const TimeField& field, const PointTimeConvention& convention, double scale) {
   const bool fraction = convention.unit == PointTimeUnit::kFraction;
   if (fraction && (field.least() < -kFractionSlack || field.most() > 1 + kFractionSlack)) {
-    field.refuse("fractions of the sweep from 0 to 1", kSetUnit);
+    field.reject("fractions of the sweep from 0 to 1", kSetUnit);
   }
   if (field.span() * scale > kFarthestFromStamp) {
-    field.refuse("at most " + number(kFarthestFromStamp) + " s in " + std::string(to_string(convention.unit)),
+    field.reject("at most " + number(kFarthestFromStamp) + " s in " + std::string(to_string(convention.unit)),
                  kSetUnit);
   }
   if (convention.reference == PointTimeReference::kStamp && !fraction &&
       field.farthest() * scale > kFarthestFromStamp) {
-    field.refuse("at most " + number(kFarthestFromStamp) + " s from the sweep's stamp, in " +
+    field.reject("at most " + number(kFarthestFromStamp) + " s from the sweep's stamp, in " +
                      std::string(to_string(convention.unit)),
                  "Set point_time_reference to epoch, point_time_unit to the right unit, or point_times to none");
   }

@@ -73,7 +73,7 @@ SE3 to_pose(const Table& table, const std::array<double, kPoseNumbers>& values) 
   const Eigen::Matrix3d R = pose.linear();
   const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (off > kRigidTolerance) {
-    table.fail(0, "a matrix that is no rotation (RᵀR is off by " + std::to_string(off) + ")", "a rigid transform");
+    table.fail(0, "a matrix that is not a rotation (RᵀR is off by " + std::to_string(off) + ")", "a rigid transform");
   }
   if (R.determinant() < 0) table.fail(0, "a reflection (determinant -1)", "a rigid transform");
   return pose;

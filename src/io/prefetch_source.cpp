@@ -76,7 +76,7 @@ void PrefetchSource::run() {
   }
 }
 
-// An IoError concerns one sweep, and the source goes on after it; anything else ends the reading.
+// An IoError concerns one sweep, and the source continues after it; anything else ends the reading.
 PrefetchSource::Item PrefetchSource::read_one(bool& last) {
   Item item;
   try {

@@ -45,7 +45,7 @@ void RandomAccessFile::read(std::uint64_t offset, std::size_t count, std::vector
       throw IoError(
           {path_, "byte " + std::to_string(offset + done),
            got == 0 ? "the file has become shorter" : "cannot be read: " + std::generic_category().message(errno),
-           std::to_string(count - done) + " more bytes", "Check the disk, and that nobody writes the file"});
+           std::to_string(count - done) + " more bytes", "Check the disk, and that no other program writes the file"});
     }
     done += static_cast<std::size_t>(got);
   }

@@ -10,7 +10,7 @@ namespace rilo::detail {
 
 class RandomAccessFile {
  public:
-  /// @throws IoError: missing, a folder or another thing that is no regular file, not readable.
+  /// @throws IoError: missing, a folder or another thing that is not a regular file, not readable.
   explicit RandomAccessFile(std::filesystem::path path);
   ~RandomAccessFile();
   RandomAccessFile(const RandomAccessFile&) = delete;

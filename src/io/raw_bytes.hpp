@@ -8,7 +8,7 @@
 
 namespace rilo::detail {
 
-/// Appends the bytes of `value`, the lowest first unless told.
+/// Appends the bytes of `value`, the lowest first by default.
 template <typename T>
 void append_bytes(std::string& bytes, T value, bool big_endian = false) {
   static_assert(std::endian::native == std::endian::little, "the formats are little-endian");

@@ -15,7 +15,7 @@ namespace rilo::detail {
 namespace {
 
 constexpr double kGapPeriods = 1.5;
-// Farther back than this is no late sweep: the clock was set.
+// Farther back than this is not a late sweep: the clock was set.
 constexpr std::int64_t kClockJumpNs = 1'000'000'000;
 // So many late ones in a row: the clock was set back, by little.
 constexpr std::size_t kMostInARow = 5;
@@ -71,7 +71,7 @@ class StampOrder final : public ScanSource {
     if (back_ns == 0) {
       const bool duplicate = Fingerprint(sweep.points) == fingerprint_;
       ++(duplicate ? faults_.duplicates : faults_.repeated);
-      warn(duplicate ? "left out, the same sweep again" : "a sweep with the stamp of the one before");
+      warn(duplicate ? "dropped: the same sweep again" : "a sweep with the stamp of the one before");
       return !duplicate;
     }
     if (back_ns > kClockJumpNs || ++in_a_row_ > kMostInARow) {
@@ -81,7 +81,7 @@ class StampOrder final : public ScanSource {
       return true;
     }
     ++faults_.out_of_order;
-    warn(fmt::format("left out, {:.3f} s older than a sweep before", static_cast<double>(back_ns) * 1e-9));
+    warn(fmt::format("dropped: {:.3f} s older than a sweep before", static_cast<double>(back_ns) * 1e-9));
     return false;
   }
 
@@ -105,7 +105,7 @@ class StampOrder final : public ScanSource {
   std::vector<std::string> warnings_;
   std::optional<std::int64_t> newest_;
   Fingerprint fingerprint_;   // of the newest
-  std::size_t in_a_row_ = 0;  // left out because older
+  std::size_t in_a_row_ = 0;  // dropped because older
   bool skipped_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Sweeps in the order of their stamps: what cannot be used is left out and counted.
+// Sweeps in the order of their stamps: what cannot be used is dropped and counted.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace rilo::detail {
 
-/// Watches the stamps of `inner`: counts gaps, leaves out duplicates and sweeps that come after a newer one, and goes
+/// Watches the stamps of `inner`: counts gaps, drops duplicates and sweeps that come after a newer one, and goes
 /// on when the clock was set back. See StampFaults.
 std::unique_ptr<ScanSource> with_stamp_order(std::unique_ptr<ScanSource> inner);
 

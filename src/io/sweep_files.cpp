@@ -74,7 +74,7 @@ std::optional<std::string> subfolder_with_sweeps(const fs::path& folder, const s
   return std::nullopt;
 }
 
-[[noreturn]] void refuse_without_sweeps(const fs::path& folder, FolderContent content, bool look_below) {
+[[noreturn]] void reject_without_sweeps(const fs::path& folder, FolderContent content, bool look_below) {
   std::sort(content.folders.begin(), content.folders.end(), natural_less);
   std::string found = "no sweeps here (.bin, .pcd, .ply)";
   const auto below = look_below ? subfolder_with_sweeps(folder, content.folders) : std::nullopt;
@@ -131,7 +131,7 @@ SweepFiles find_sweep_files(const fs::path& folder, bool look_below) {
     counts += (kinds++ == 0 ? "" : " and ") + std::to_string(content.sweeps[i].size()) + " ." + kFormats[i];
     found = {kFormats[i], std::move(content.sweeps[i])};
   }
-  if (kinds == 0) refuse_without_sweeps(folder, std::move(content), look_below);
+  if (kinds == 0) reject_without_sweeps(folder, std::move(content), look_below);
   if (kinds > 1) {
     throw IoError(
         {folder, "", counts + " files", "sweeps of one kind", "Move the other files into a folder of their own"});

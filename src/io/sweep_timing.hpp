@@ -20,7 +20,7 @@ class SweepTiming {
   void promise(const std::optional<std::string>& times);
 
   /// Fills sweep.times_s (and the stamp, when the times count from an epoch) from `times`, the azimuth, or not at all.
-  /// `forward_after_s`: from the stamp to the instant when the sensor faces forward, for azimuth times.
+  /// `forward_after_s`: from the stamp to the time when the sensor faces forward, for azimuth times.
   /// @throws IoError when the times make no sense; `file` is for its message.
   void apply(const std::optional<RawTimes>& times, const std::filesystem::path& file, double forward_after_s,
              Sweep& sweep);

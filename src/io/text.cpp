@@ -71,7 +71,7 @@ std::optional<double> parse_double(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // Too small is as good as zero, too large is no number.
+    // Too small is as good as zero, too large is not a number.
     value = std::strtod(std::string(text).c_str(), nullptr);
     if (std::abs(value) > 1) return std::nullopt;
   }

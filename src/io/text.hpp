@@ -49,7 +49,7 @@ std::optional<double> parse_double(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_unsigned(std::string_view text);
 
-/// For messages: in quotes, cut after 40 characters, bytes that are no printable ASCII as '?'.
+/// For messages: in quotes, cut after 40 characters, bytes that are not printable ASCII as '?'.
 std::string in_quotes(std::string_view text);
 
 /// "line 3" and "line 3, column 7".

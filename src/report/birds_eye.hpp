@@ -17,7 +17,7 @@ struct BirdsEyeMap {
   double metres_per_pixel = 0;
 };
 
-/// Heights above the local ground (m) that the first and the last colour of the map stand for.
+/// Heights above the local ground (m) that of the first and the last colour of the map.
 inline constexpr double kMapColourLowM = 0.0;
 inline constexpr double kMapColourHighM = 6.0;
 /// The colours between them, evenly spaced.

@@ -38,7 +38,7 @@ Json errors(const std::vector<ErrorSample>& series) {
           {"height", column(series, [](const ErrorSample& s) { return s.axis_m.z(); })}};
 }
 
-/// Names once, then one index a sweep.
+/// Names once, then one index per sweep.
 Json coded(const std::vector<ReportSweep>& sweeps, std::string ReportSweep::*text) {
   std::vector<std::string> names;
   Json codes = Json::array();

@@ -7,7 +7,7 @@
 
 namespace rilo {
 
-/// Four decimals; JSON has no word for what is not finite, so null stands for it.
+/// Four decimals; JSON has no word for what is not finite, so it is null.
 nlohmann::json rounded(double value);
 
 /// A <script> element with `data`; nothing in it can end the element.

@@ -10,7 +10,7 @@
 
 namespace rilo {
 
-/// What stands on one page. Runs are compared sequence by sequence, in the order in which they come; with several
+/// Content of one page. Runs are compared sequence by sequence, in the order in which they come; with several
 /// sequences there is an overview of all of them.
 struct ReportPage {
   std::string title;                 ///< empty: made from the contents

@@ -18,7 +18,7 @@ struct IndexedImage {
   std::vector<std::uint8_t> pixels;
 };
 
-/// The picture as PNG in a data URL. @throws std::runtime_error when libpng refuses.
+/// The picture as PNG in a data URL. @throws std::runtime_error when libpng fails.
 std::string png_data_url(const IndexedImage& image);
 
 /// Base64 (RFC 4648, with padding).

@@ -37,9 +37,9 @@ struct RunReport {
   std::string notice;    ///< shown on top when not empty, e.g. that the run was interrupted
   std::vector<std::pair<std::string, std::string>>
       facts;                        ///< command, configuration, corrections, pose instant, threads …
-  std::vector<SE3> estimate;        ///< T_odom_lidar, one a sweep (x forward, y left, z up)
+  std::vector<SE3> estimate;        ///< T_odom_lidar, one per sweep (x forward, y left, z up)
   std::vector<SE3> truth;           ///< empty, or true poses in the same frame (equal first poses); any length
-  std::vector<ReportSweep> sweeps;  ///< empty, or one a pose of `estimate`
+  std::vector<ReportSweep> sweeps;  ///< empty, or one per pose of `estimate`
   std::optional<Evaluation> evaluation;
   /// Figures found before, for what can no longer be computed (the truth is gone): see ComparisonFigure::key.
   std::map<std::string, double> recorded;

@@ -19,7 +19,7 @@ nlohmann::json read_json_object(const std::filesystem::path& file, const std::st
   try {
     json = nlohmann::json::parse(stream);
   } catch (const nlohmann::json::parse_error& error) {
-    throw IoError({file, fmt::format("byte {}", error.byte), "this is no JSON", expected, ""});
+    throw IoError({file, fmt::format("byte {}", error.byte), "this is not JSON", expected, ""});
   }
   if (!json.is_object())
     throw IoError({file, "", std::string("JSON of another kind, ") + json.type_name(), expected, ""});

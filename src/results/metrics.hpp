@@ -1,4 +1,4 @@
-// Figures of a run or of somebody else's poses: what metrics.json and the cells of a benchmark hold.
+// Figures of a run or of another program's poses: what metrics.json and the cells of a benchmark hold.
 #pragma once
 
 #include <cstddef>
@@ -49,7 +49,7 @@ struct EvaluationMetrics {
   friend bool operator==(const EvaluationMetrics&, const EvaluationMetrics&) = default;
 };
 
-/// Sweeps on which something was left undone for want of time.
+/// Sweeps on which something was left undone because of the time budget.
 struct BudgetMetrics {
   double sweep_ms = 0;
   std::size_t points_cut = 0;
@@ -65,7 +65,7 @@ struct RunMetrics {
   std::string rilo_version;
   std::string command;
   std::string data;
-  std::string data_path;  ///< the same, absolute: a relative one says nothing elsewhere
+  std::string data_path;  ///< the same, absolute: a relative one is valid in one folder only
   std::string format;
   MaybeCount frames;  ///< sweeps
   bool interrupted = false;

@@ -16,7 +16,7 @@ nlohmann::json to_json(const RunMetrics& metrics, MetricKeys keys = MetricKeys::
 nlohmann::json to_json(const EvaluationMetrics& metrics);
 nlohmann::json to_json(const StampFaults& faults);
 
-/// Keys that are missing or null leave their field empty; unknown ones are passed over. `file`: for messages.
+/// Keys that are missing or null leave their field empty; unknown ones are ignored. `file`: for messages.
 /// @throws IoError when a value is of another type than its key has.
 RunMetrics metrics_of(const nlohmann::json& json, const std::filesystem::path& file);
 

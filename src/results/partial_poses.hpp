@@ -1,4 +1,4 @@
-// Poses on disk while the run goes on.
+// Poses on disk during the run.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace rilo {
 
-/// `poses_lidar.partial.txt` in the output folder, KITTI form, a line a sweep handed to the system at once: even a run
-/// that is killed leaves a valid beginning. It goes away when the whole files are in place.
+/// `poses_lidar.partial.txt` in the output folder, KITTI form, one line per sweep, handed to the system immediately:
+/// even a run that is killed leaves a valid beginning. It goes away when the whole files are in place.
 class PartialPoses final : public SessionObserver {
  public:
   /// An empty `folder`: nothing is written.

@@ -16,10 +16,10 @@ struct PoseFile {
   bool stamped = false;  ///< TUM form
 };
 
-/// KITTI form (12 numbers a line) or TUM form (8), told from the first line. @throws IoError
+/// KITTI form (12 numbers a line) or TUM form (8), detected from the first line. @throws IoError
 PoseFile read_poses(const std::filesystem::path& file);
 
-/// The same, or the ground truth of a data folder for that instant of the sweeps. @throws IoError
+/// The same, or the ground truth of a data folder for that time of the sweeps. @throws IoError
 PoseFile read_truth(const std::filesystem::path& path, TruthInstant instant);
 
 enum class Pairing { kAuto, kIndex, kStamp };
@@ -35,7 +35,7 @@ struct PairingOptions {
 
 struct PairedPoses {
   MatchedPoses poses;
-  std::string protocol;  ///< how they were paired, and what was left out
+  std::string protocol;  ///< how they were paired, and what was dropped
 };
 
 /// @throws RunError when the two cannot be paired so.

@@ -37,8 +37,8 @@ struct RunRecord : SessionResult {
   std::optional<Evaluation> evaluation;
 };
 
-/// Looks for ground truth beside the data and evaluates. Truth that cannot be read is said in truth_error and does not
-/// spoil the run.
+/// Looks for ground truth beside the data and evaluates. Truth that cannot be read is reported in truth_error and does
+/// not end the run.
 void evaluate_run(RunRecord& run);
 
 }  // namespace rilo

@@ -114,7 +114,7 @@ void evaluate_run(RunRecord& run) {
   } catch (const std::invalid_argument& error) {
     run.truth_error = error.what();
   }
-  if (!run.truth_error.empty()) run.source.warnings.push_back("ground truth left out: " + run.truth_error);
+  if (!run.truth_error.empty()) run.source.warnings.push_back("ground truth not used: " + run.truth_error);
 }
 
 }  // namespace rilo

@@ -75,7 +75,7 @@ double period_of(const RunRecord& run) {
   return *middle > 0 ? static_cast<double>(*middle) * 1e-9 : run.source.period_s;
 }
 
-/// The configuration decides one line of the report; one of another version is no reason to refuse the run.
+/// The configuration decides one line of the report; one of another version is not a reason to refuse the run.
 OdometryConfig config_of(const fs::path& folder) {
   try {
     return is_file(folder / "config.yaml") ? load_config(folder / "config.yaml") : OdometryConfig{};
@@ -136,7 +136,7 @@ SavedRun read_killed_run(const fs::path& folder) {
     run.record.indices.push_back(run.record.results.size());
     run.record.results.push_back(result);
   }
-  run.notices.push_back(fmt::format("this run was killed or is still going on: only {} is there, with its first {}",
+  run.notices.push_back(fmt::format("this run was killed or is still running: only {} is there, with its first {}",
                                     kPartial, counted(run.record.results.size(), "pose")));
   return run;
 }
@@ -172,7 +172,7 @@ SavedRun read_saved_run(const fs::path& folder) {
   read_map(run);
   if (is_file(folder / kPartial)) {
     run.notices.push_back(fmt::format(
-        "a later run into this folder was killed or is still going on ({}); shown is the one before", kPartial));
+        "a later run into this folder was killed or is still running ({}); shown is the one before", kPartial));
   }
   return run;
 }

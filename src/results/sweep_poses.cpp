@@ -88,7 +88,7 @@ std::vector<Eigen::Vector3f> points_at(const Sweep& sweep, const SweepPose& pose
   const float middle = middle_s(sweep.times_s);
   TimedCloud cloud{sweep.points, sweep.times_s};
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!std::isfinite(cloud.offsets_s[i])) {  // of unknown instant: left out by way of NaN
+    if (!std::isfinite(cloud.offsets_s[i])) {  // of unknown time: dropped as NaN
       cloud.points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
       cloud.offsets_s[i] = middle;
     }

@@ -44,7 +44,7 @@ class SweepPoses {
   bool by_stamp_;
 };
 
-/// The points of `sweep` as if all were measured at the instant of its pose. Untimed ones are so already.
+/// The points of `sweep` as if all were measured at the time of its pose. Untimed ones are so already.
 std::vector<Eigen::Vector3f> points_at(const Sweep& sweep, const SweepPose& pose);
 
 }  // namespace rilo

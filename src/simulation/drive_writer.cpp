@@ -57,7 +57,7 @@ void prepare_folder(const fs::path& folder) {
     if (path.filename() == kLock) continue;
     const fs::path name = path.extension() == kTemporary ? path.stem() : path.filename();
     if (kOurs.count(name.string()) == 0) {
-      throw std::runtime_error(path.string() + ": is no part of a simulated drive; choose an empty folder");
+      throw std::runtime_error(path.string() + ": is not part of a simulated drive; choose an empty folder");
     }
     found.push_back(path);
   }

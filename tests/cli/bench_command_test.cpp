@@ -106,7 +106,7 @@ TEST(BenchCommand, ComparesWithEarlierResults) {
   const Outcome more = rilo_succeeds({"bench", other, "--baseline", folder / "out" / "results.json", "--quiet"});
   EXPECT_THAT(more.out, HasSubstr("not in the baseline: one × A"));
   EXPECT_THAT(more.out, HasSubstr("only in the baseline: one × default"));
-  rilo_fails(3, {"bench", plan, "--baseline", plan}, {"no JSON", "results.json"});
+  rilo_fails(3, {"bench", plan, "--baseline", plan}, {"not JSON", "results.json"});
 }
 
 TEST(BenchCommand, TheStoreAloneIsEnoughForReportsAndDifferences) {

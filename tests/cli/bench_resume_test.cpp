@@ -192,7 +192,7 @@ TEST(BenchResume, MissingSequencesAreLeftOutWhereThePlanSaysSo) {
   const auto plan = folder.write("plan.yaml", "skip_missing: true\nsequences: [{path: drive}, {path: nowhere}]\n");
   const Outcome bench =
       rilo_succeeds({"bench", plan, "--root", shared_drive().parent_path(), "--count", "3", "--jobs", "2"});
-  EXPECT_THAT(bench.err, HasSubstr("left out"));
+  EXPECT_THAT(bench.err, HasSubstr("skipped, as they do not exist"));
   EXPECT_THAT(bench.err, HasSubstr("nowhere"));
   rilo_fails(3, {"bench", plan, "--root", folder.path()}, {"nowhere", "--root"});
 }

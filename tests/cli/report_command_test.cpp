@@ -89,7 +89,7 @@ TEST(ReportCommand, PartialResultsSaySo) {
   replace(killed / "poses_lidar.partial.txt", kitti_row(0, 0, 0) + kitti_row(1, 0, 0) + "1 0 0 2 0 1");
   const Outcome outcome = rilo_succeeds({"report", shared_run(), interrupted, killed, "-o", folder / "page.html"});
   EXPECT_THAT(outcome.err, HasSubstr("interrupted: The run was interrupted"));
-  EXPECT_THAT(outcome.err, HasSubstr("killed: this run was killed or is still going on"));
+  EXPECT_THAT(outcome.err, HasSubstr("killed: this run was killed or is still running"));
   EXPECT_THAT(outcome.err, HasSubstr("the runs are over different sweeps"));
   const std::string html = content(folder / "page.html");
   EXPECT_THAT(html, HasSubstr("<b>interrupted:</b> The run was interrupted"));
@@ -199,7 +199,7 @@ TEST(ReportCommand, RefusesDamagedResults) {
   replace(run / "metrics.json", R"({"threads": "many"})");
   rilo_fails(3, {"report", run, "-o", page}, {"metrics.json", "threads", "string", "number"});
   replace(run / "metrics.json", "{");
-  rilo_fails(3, {"report", run, "-o", page}, {"metrics.json", "no JSON"});
+  rilo_fails(3, {"report", run, "-o", page}, {"metrics.json", "not JSON"});
   EXPECT_FALSE(fs::exists(page));
 }
 

@@ -9,9 +9,9 @@ TEST(ViewCommand, SaysWhatIsNotARun) {
   rilo_fails(3, {"view", folder / "nowhere"}, {"nowhere", "no such folder", "rilo run --out"});
   rilo_fails(3, {"view", folder.path()}, {"neither metrics.json nor"});
   folder.write("poses_lidar.partial.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n");
-  rilo_fails(3, {"view", folder.path()}, {"metrics.json", "killed or is still going on"});
+  rilo_fails(3, {"view", folder.path()}, {"metrics.json", "killed or is still running"});
   folder.write("metrics.json", "{");
-  rilo_fails(3, {"view", folder.path()}, {"metrics.json", "no JSON"});
+  rilo_fails(3, {"view", folder.path()}, {"metrics.json", "not JSON"});
 }
 
 }  // namespace

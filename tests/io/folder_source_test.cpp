@@ -144,7 +144,7 @@ TEST(FolderSourceTest, SingleFile) {
   EXPECT_EQ(source->size(), 1U);
   EXPECT_EQ(marks_of(*source), std::vector<float>{4});
   expect_io_error([&] { open_scan_source(folder.write("a.csv", "")); }, {"a.csv", "'.csv'", ".bin, .pcd or .ply"});
-  expect_io_error([&] { open_scan_source(folder / "none"); }, {"none", "nothing of this name"});
+  expect_io_error([&] { open_scan_source(folder / "none"); }, {"none", "no such file or folder"});
   expect_io_error([&] { open_scan_source("/dev/null"); }, {"neither a folder nor a file"});
 }
 

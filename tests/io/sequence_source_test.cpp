@@ -152,7 +152,7 @@ TEST(SequenceSourceTest, DriveSimulatorWithoutItsTimesOrFromAzimuth) {
 TEST(SequenceSourceTest, DriveSimulatorErrors) {
   const TempDir folder;
   write_drive(folder, "{");
-  expect_io_error([&] { open_scan_source(folder.path()); }, {"meta.json", "no JSON object"});
+  expect_io_error([&] { open_scan_source(folder.path()); }, {"meta.json", "not a JSON object"});
   folder.write("meta.json", R"({"rate_hz": "fast"})");
   expect_io_error([&] { open_scan_source(folder.path()); }, {"meta.json", "rate_hz"});
   folder.write("meta.json", R"({"rate_hz": 0})");

@@ -49,7 +49,7 @@ TEST(StampOrderTest, DuplicatesAndOldSweepsAreLeftOut) {
   EXPECT_EQ(faults.duplicates, 3U);
   EXPECT_EQ(faults.out_of_order, 1U);
   EXPECT_EQ(faults.gaps, 1U);
-  EXPECT_TRUE(has_warning(source->info(), "left out, 0.100 s older"));
+  EXPECT_TRUE(has_warning(source->info(), "dropped: 0.100 s older"));
 }
 
 TEST(StampOrderTest, AClockThatIsSetBackDoesNotStopTheRun) {

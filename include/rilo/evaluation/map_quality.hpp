@@ -41,7 +41,7 @@ struct MapQuality {
   std::optional<double> mean_map_entropy;  ///< mean of ½ ln det(2πe C) over the places, C in m²; empty without places
 };
 
-/// Takes sweeps one after the other; keeps no more than one window of them.
+/// Takes sweeps one after the other; keeps at most one window of them.
 /// C is the covariance (N − 1) of the neighbours of a place within radius_m in the map of the window, eigenvalues
 /// not below 1e-12 m²; its smallest eigenvalue is the mean square distance to the local plane.
 class MapQualityMeter {

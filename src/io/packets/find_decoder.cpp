@@ -41,7 +41,7 @@ Contents contents_of(PacketStream& stream) {
     try {
       datagram = stream.next();
     } catch (const IoError&) {
-      continue;  // reported when its turn comes
+      continue;  // reported when it is reached
     }
     if (!datagram) break;
     const std::pair kind{datagram->port, datagram->payload.size()};
@@ -129,7 +129,7 @@ std::unique_ptr<PacketDecoder> find_decoder(PacketStream& stream, const fs::path
   const std::size_t bytes = ouster_packet_bytes(metadata);
   const auto fits = [&](const auto& kind) { return kind.first.second == bytes; };
   if (std::none_of(contents.counts.begin(), contents.counts.end(), fits)) {
-    throw IoError({path, "", contents.text(), "packets of " + std::to_string(bytes) + " bytes, as " + where + " says",
+    throw IoError({path, "", contents.text(), "packets of " + std::to_string(bytes) + " bytes, as in " + where,
                    "Give the metadata of this very recording with --sensor-file"});
   }
   return ouster_decoder(std::move(metadata));

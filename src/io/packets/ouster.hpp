@@ -18,11 +18,11 @@ namespace rilo::detail {
 enum class OusterProfile : std::uint8_t { kLegacy, kRng15, kRng19, kRng19Dual };
 
 struct OusterMetadata {
-  std::string product;  ///< "OS-1-128", as far as told
+  std::string product;  ///< "OS-1-128", as far as known
   OusterProfile profile = OusterProfile::kLegacy;
   std::size_t columns_per_frame = 1024;
   std::size_t columns_per_packet = 16;
-  std::size_t columns_sent = 1024;  ///< of a frame: the window may be smaller than a turn
+  std::size_t columns_sent = 1024;  ///< of a frame: the window may be smaller than a revolution
   std::vector<double> elevations_rad;
   std::vector<double> azimuths_rad;
   double beam_origin_m = 0;  ///< from the axis of rotation

@@ -88,7 +88,7 @@ class OusterDecoder final : public PacketDecoder {
 
  private:
   void begin_frame(std::uint16_t frame, std::deque<DecodedSweep>& done) {
-    // Nothing has more columns than a frame: a counter that stands still must not gather the whole recording.
+    // Nothing has more columns than a frame: a counter that does not advance must not gather the whole recording.
     if (frame_ && *frame_ == frame && columns_ < metadata_.columns_per_frame) return;
     end_frame(done);
     frame_ = frame;

@@ -22,10 +22,10 @@ class MetadataText {
  public:
   MetadataText(std::string_view text, std::filesystem::path file, std::string part)
       : file_(std::move(file)), part_(std::move(part)), root_(json::parse(text, nullptr, false)) {
-    if (!root_.is_object()) refuse("", "text that is not a JSON object");
+    if (!root_.is_object()) reject("", "text that is not a JSON object");
   }
 
-  [[noreturn]] void refuse(const std::string& key, const std::string& found) const {
+  [[noreturn]] void reject(const std::string& key, const std::string& found) const {
     const std::string position = part_ + (part_.empty() || key.empty() ? "" : ", ") + key;
     throw IoError({file_, position, found, "the metadata of an Ouster (get_metadata, or the file beside the recording)",
                    "Give the sensor's metadata with --sensor-file"});
@@ -58,16 +58,16 @@ class MetadataText {
   std::size_t count(const char* key, std::size_t otherwise, std::size_t most) const {
     const auto value = number(key);
     if (!value) return otherwise;
-    if (!(*value >= 1 && *value <= static_cast<double>(most))) refuse(key, std::to_string(*value));
+    if (!(*value >= 1 && *value <= static_cast<double>(most))) reject(key, std::to_string(*value));
     return static_cast<std::size_t>(*value);
   }
 
   std::vector<double> numbers(const char* key) const {
     const json* value = find(key);
-    if (value == nullptr || !value->is_array()) refuse(key, "no list of this name");
+    if (value == nullptr || !value->is_array()) reject(key, "no list of this name");
     std::vector<double> all;
     for (const json& entry : *value) {
-      if (!entry.is_number()) refuse(key, "an entry that is no number");
+      if (!entry.is_number()) reject(key, "an entry that is not a number");
       all.push_back(entry.get<double>());
     }
     return all;
@@ -85,34 +85,34 @@ OusterProfile profile_of(const MetadataText& file) {
   if (name == "RNG15_RFL8_NIR8") return OusterProfile::kRng15;
   if (name == "RNG19_RFL8_SIG16_NIR16") return OusterProfile::kRng19;
   if (name == "RNG19_RFL8_SIG16_NIR16_DUAL") return OusterProfile::kRng19Dual;
-  file.refuse("udp_profile_lidar", in_quotes(name) +
+  file.reject("udp_profile_lidar", in_quotes(name) +
                                        " (known: LEGACY, RNG15_RFL8_NIR8, RNG19_RFL8_SIG16_NIR16, "
                                        "RNG19_RFL8_SIG16_NIR16_DUAL)");
 }
 
-// "1024x10": columns a turn, turns a second.
+// "1024x10": columns per revolution, revolutions per second.
 void read_mode(const MetadataText& file, OusterMetadata& metadata) {
   const std::string mode = file.text("lidar_mode");
   unsigned columns = 0;
   unsigned rate = 0;
   const bool known = std::sscanf(mode.c_str(), "%ux%u", &columns, &rate) == 2;  // NOLINT(cert-err34-c)
   if (!known || columns < 16 || columns > 8192 || rate < 1 || rate > 100) {
-    file.refuse("lidar_mode", mode.empty() ? "no such key" : in_quotes(mode));
+    file.reject("lidar_mode", mode.empty() ? "no such key" : in_quotes(mode));
   }
   metadata.columns_per_frame = file.count("columns_per_frame", columns, 8192);
   metadata.columns_sent = metadata.columns_per_frame;
   metadata.rate_hz = rate;
 }
 
-// The first and the last column that are sent; the window may lie across the end of the turn.
+// The first and the last column that are sent; the window may lie across the end of the revolution.
 void read_window(const MetadataText& file, OusterMetadata& metadata) {
   if (file.find("column_window") == nullptr) return;
   const std::vector<double> window = file.numbers("column_window");
   const auto columns = static_cast<double>(metadata.columns_per_frame);
   for (const double end : window) {
-    if (!(end >= 0 && end < columns)) file.refuse("column_window", "column " + std::to_string(end));
+    if (!(end >= 0 && end < columns)) file.reject("column_window", "column " + std::to_string(end));
   }
-  if (window.size() != 2) file.refuse("column_window", std::to_string(window.size()) + " numbers");
+  if (window.size() != 2) file.reject("column_window", std::to_string(window.size()) + " numbers");
   const double sent = window[1] - window[0] + 1;
   metadata.columns_sent = static_cast<std::size_t>(sent > 0 ? sent : sent + columns);
 }
@@ -124,7 +124,7 @@ void read_transform(const MetadataText& file, OusterMetadata& metadata) {
   metadata.T_sensor_lidar(2, 3) = 36.18 * kMillimetres;
   if (file.find("lidar_to_sensor_transform") == nullptr) return;
   const std::vector<double> values = file.numbers("lidar_to_sensor_transform");
-  if (values.size() != 16) file.refuse("lidar_to_sensor_transform", std::to_string(values.size()) + " numbers");
+  if (values.size() != 16) file.reject("lidar_to_sensor_transform", std::to_string(values.size()) + " numbers");
   for (Eigen::Index i = 0; i < 16; ++i) {
     const bool shift = i % 4 == 3 && i < 12;
     metadata.T_sensor_lidar(i / 4, i % 4) = values[static_cast<std::size_t>(i)] * (shift ? kMillimetres : 1);
@@ -155,11 +155,11 @@ OusterMetadata parse_ouster_metadata(std::string_view text, const std::filesyste
   metadata.azimuths_rad = in_radians(file.numbers("beam_azimuth_angles"));
   const std::size_t beams = metadata.elevations_rad.size();
   if (beams == 0 || beams > 1024 || metadata.azimuths_rad.size() != beams) {
-    file.refuse("beam_azimuth_angles", std::to_string(metadata.azimuths_rad.size()) + " azimuths and " +
+    file.reject("beam_azimuth_angles", std::to_string(metadata.azimuths_rad.size()) + " azimuths and " +
                                            std::to_string(beams) + " elevations");
   }
   if (file.count("pixels_per_column", beams, 1024) != beams) {
-    file.refuse("pixels_per_column", "another number than the " + std::to_string(beams) + " beams");
+    file.reject("pixels_per_column", "another number than the " + std::to_string(beams) + " beams");
   }
   constexpr double kFirstGenerationMm = 12.163;
   metadata.beam_origin_m = 1e-3 * file.number("lidar_origin_to_beam_origin_mm").value_or(kFirstGenerationMm);

@@ -16,7 +16,7 @@ namespace rilo::detail {
 /// as it is; any other is set by the first packet and keeps its own rate from there.
 class PacketClock {
  public:
-  /// `wrap_ns`: the sensor's clock begins anew after so long; 0: never.
+  /// `wrap_ns`: period after which the sensor's clock wraps; 0: never.
   explicit PacketClock(std::int64_t wrap_ns) : wrap_ns_(wrap_ns) {}
 
   std::int64_t stamp_ns(std::int64_t sensor_ns, std::int64_t received_ns);

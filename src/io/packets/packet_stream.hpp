@@ -20,7 +20,7 @@ class PacketStream {
   virtual ~PacketStream() = default;
 
   /// The next packet in the order of the recording, or nothing at the end.
-  /// @throws IoError when a message cannot be read; the following call goes on behind it.
+  /// @throws IoError when a message cannot be read; the following call continues after it.
   virtual std::optional<Datagram> next() = 0;
 
   /// The container, for people: "mcap (zstd)"; empty for a capture.

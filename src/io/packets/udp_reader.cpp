@@ -69,7 +69,7 @@ UdpReader::UdpReader(std::filesystem::path file) : file_(std::move(file)) {
   capture_.reset(pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, message.data()));
   if (!capture_) {
     std::fclose(stream);
-    throw IoError({file_, "", std::string("libpcap says: ") + message.data(), "a pcap or pcapng recording",
+    throw IoError({file_, "", std::string("libpcap: ") + message.data(), "a pcap or pcapng recording",
                    "Check what kind of file this is, or record it again"});
   }
   link_ = pcap_datalink(capture_.get());

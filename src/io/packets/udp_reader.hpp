@@ -21,7 +21,7 @@ namespace rilo::detail {
 /// was fragmented, and unfragmented IPv6.
 class UdpReader final : public PacketStream {
  public:
-  /// @throws IoError when the file is no capture, or of a link type that we do not know.
+  /// @throws IoError when the file is not a capture, or of a link type that we do not know.
   explicit UdpReader(std::filesystem::path file);
   ~UdpReader() override;
   UdpReader(const UdpReader&) = delete;

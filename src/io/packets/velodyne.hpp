@@ -47,7 +47,7 @@ void read_velodyne_calibration(const std::filesystem::path& calibration, Velodyn
 /// Numbers the lasers by elevation.
 void set_rings(VelodyneModel& model);
 
-/// A sweep is a turn from straight behind to straight behind.
+/// A sweep is a revolution from straight behind to straight behind.
 std::unique_ptr<PacketDecoder> velodyne_decoder(VelodyneModel model);
 
 }  // namespace rilo::detail

@@ -1,4 +1,4 @@
-// One turn of a Velodyne after the other.
+// One revolution of a Velodyne after the other.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -74,9 +74,9 @@ class VelodyneDecoder final : public PacketDecoder {
     rate_ = step / (model_.firing_us * static_cast<double>(model_.firings_a_block));
   }
 
-  // A turn ends straight behind.
+  // A revolution ends straight behind.
   void look_for_the_rear(int azimuth, std::deque<DecodedSweep>& done) {
-    constexpr std::size_t kMostPoints = std::size_t{1} << 20;  // a motor that stands still gives no turn
+    constexpr std::size_t kMostPoints = std::size_t{1} << 20;  // a motor that does not run gives no revolution
     const int since_rear = (azimuth + kTurn / 2) % kTurn;
     constexpr int kJustBehind = 200;
     if (last_since_rear_ < 0) whole_ = since_rear <= kJustBehind;

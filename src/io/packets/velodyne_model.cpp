@@ -41,8 +41,8 @@ VelodyneModel make(std::string name, double unit_m, double firing_us, double las
   for (std::size_t i = 0; i < elevations_deg.size(); ++i) {
     VelodyneLaser laser;
     laser.elevation_rad = elevations_deg[i] * kRadPerDeg;
-    const std::size_t turn = i / at_once;  // lasers of a turn fire together
-    laser.fires_after_us = static_cast<double>(turn) * laser_us;
+    const std::size_t group = i / at_once;  // lasers of a group fire together
+    laser.fires_after_us = static_cast<double>(group) * laser_us;
     model.lasers.push_back(laser);
   }
   set_rings(model);
@@ -112,7 +112,7 @@ VelodyneModel velodyne_model(std::string_view packet, const std::filesystem::pat
 }
 
 void read_velodyne_calibration(const std::filesystem::path& calibration, VelodyneModel& model) {
-  const auto refuse = [&](const std::string& found) {
+  const auto reject = [&](const std::string& found) {
     throw IoError({calibration, "", found,
                    "a calibration of " + std::to_string(model.lasers.size()) + " lasers as velodyne_pointcloud has it",
                    "Make it from the sensor's db.xml with gen_calibration.py of velodyne_pointcloud"});
@@ -121,12 +121,12 @@ void read_velodyne_calibration(const std::filesystem::path& calibration, Velodyn
     const YAML::Node root = YAML::LoadFile(calibration.string());
     const YAML::Node lasers = root["lasers"];
     if (!lasers || !lasers.IsSequence() || lasers.size() != model.lasers.size()) {
-      refuse(lasers && lasers.IsSequence() ? std::to_string(lasers.size()) + " lasers" : "no list of lasers");
+      reject(lasers && lasers.IsSequence() ? std::to_string(lasers.size()) + " lasers" : "no list of lasers");
     }
     if (root["distance_resolution"]) model.unit_m = root["distance_resolution"].as<double>();
     for (const YAML::Node& entry : lasers) {
       const auto id = entry["laser_id"].as<std::size_t>();
-      if (id >= model.lasers.size()) refuse("laser_id " + std::to_string(id));
+      if (id >= model.lasers.size()) reject("laser_id " + std::to_string(id));
       VelodyneLaser& laser = model.lasers[id];
       laser.elevation_rad = entry["vert_correction"].as<double>();
       laser.azimuth_rad = -number_of(entry, "rot_correction");
@@ -135,7 +135,7 @@ void read_velodyne_calibration(const std::filesystem::path& calibration, Velodyn
       laser.distance_offset_m = number_of(entry, "dist_correction");
     }
   } catch (const YAML::Exception& error) {
-    refuse("text that cannot be used: " + std::string(error.what()));
+    reject("text that cannot be used: " + std::string(error.what()));
   }
   set_rings(model);
 }

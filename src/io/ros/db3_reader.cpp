@@ -89,7 +89,7 @@ class Database {
   [[noreturn]] void fail(const std::string& what) const {
     const bool endless = sqlite3_errcode(database_.get()) == SQLITE_INTERRUPT;
     const std::string why = endless ? "it has more rows than its bytes can hold"
-                                    : std::string("SQLite3 says: ") + sqlite3_errmsg(database_.get());
+                                    : std::string("SQLite3: ") + sqlite3_errmsg(database_.get());
     throw IoError({path_, "", what + why, "a rosbag2 database with the tables topics and messages",
                    "Copy the recording again; where the recorder was killed, sqlite3's .recover may help"});
   }
@@ -179,7 +179,7 @@ class Db3Reader final : public Recording {
     }
   }
 
-  // A damaged page ends the recording: SQLite cannot go on behind it.
+  // A damaged page ends the recording: SQLite cannot continue after it.
   bool step() {
     if (!rows_) return false;
     try {

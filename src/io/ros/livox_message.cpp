@@ -16,7 +16,7 @@ LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const
   LivoxMessage message;
   message.stamp_ns = header.stamp_ns;
   message.frame_id = std::move(header.frame_id);
-  cursor.take<std::uint64_t>("timebase");  // the stamp once more, or the sensor's own clock where it is not set
+  cursor.take<std::uint64_t>("timebase");  // the stamp again, or the sensor's own clock where it is not set
   cursor.take<std::uint32_t>("point_num");
   cursor.take<std::uint8_t>("lidar_id");
   cursor.take_bytes(kReserved, "rsvd");

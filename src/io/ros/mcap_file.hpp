@@ -1,4 +1,4 @@
-// The records of an MCAP file, wherever they lie in it.
+// The records of an MCAP file.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct Record {
 
 class RecordFile {
  public:
-  /// @throws IoError when it is no MCAP file.
+  /// @throws IoError when it is not an MCAP file.
   explicit RecordFile(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return file_.path(); }

@@ -99,7 +99,7 @@ class Reader final : public Recording {
     }
   }
 
-  // A summary may leave out the channels or their schemas.
+  // A summary may lack the channels or their schemas.
   bool summary_tells() const {
     const auto is_told = [&](const auto& channel) {
       return channel.second.schema_id == 0 || known_.schemas.contains(channel.second.schema_id);
@@ -117,7 +117,7 @@ class Reader final : public Recording {
                  return false;
                }).has_value();
       } catch (const IoError&) {
-        // Reported when its turn comes.
+        // Reported when it is reached.
       }
     }
     place_ = kMagic.size();
@@ -209,19 +209,19 @@ class Reader final : public Recording {
     } else if (header.compression.empty()) {
       chunk_.assign(packed.begin(), packed.end());
     } else {
-      refuse_chunk("the compression " + in_quotes(header.compression), "zstd, lz4 or none");
+      reject_chunk("the compression " + in_quotes(header.compression), "zstd, lz4 or none");
     }
     if (!header.compression.empty()) compression_ = header.compression;
     if (chunk_.size() != header.unpacked_bytes) {
-      refuse_chunk(std::to_string(chunk_.size()) + " bytes unpacked", std::to_string(header.unpacked_bytes));
+      reject_chunk(std::to_string(chunk_.size()) + " bytes unpacked", std::to_string(header.unpacked_bytes));
     }
     const auto crc = ::crc32_z(0, reinterpret_cast<const Bytef*>(chunk_.data()), chunk_.size());
     if (header.crc != 0 && crc != header.crc) {
-      refuse_chunk("CRC " + std::to_string(crc), "CRC " + std::to_string(header.crc));
+      reject_chunk("CRC " + std::to_string(crc), "CRC " + std::to_string(header.crc));
     }
   }
 
-  [[noreturn]] void refuse_chunk(const std::string& found, const std::string& expected) const {
+  [[noreturn]] void reject_chunk(const std::string& found, const std::string& expected) const {
     throw IoError({file_.path(), chunk_origin_.part, found, expected,
                    "The file is damaged: copy it again, or leave the chunk out with --skip-bad-sweeps"});
   }

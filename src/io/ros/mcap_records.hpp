@@ -34,7 +34,7 @@ struct Channel {
   std::string encoding;
 };
 
-/// What all channels of a file are, as far as records told.
+/// All channels of a file, as far as they have been read.
 struct Channels {
   std::map<std::uint16_t, std::string> schemas;  ///< id → name
   std::map<std::uint16_t, Channel> channels;

@@ -22,7 +22,8 @@ struct VelodyneScan {
   std::vector<RecordedPacket> packets;
 };
 
-/// velodyne_msgs/VelodyneScan: about a turn. `file` and `part` ("message 17 of /velodyne_packets") are for messages.
+/// velodyne_msgs/VelodyneScan: about a revolution. `file` and `part` ("message 17 of /velodyne_packets") are for
+/// messages.
 /// @throws IoError, with the byte, when the bytes are not one.
 VelodyneScan parse_velodyne_scan(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
                                  const std::string& part);

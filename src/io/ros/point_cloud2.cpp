@@ -34,7 +34,7 @@ std::optional<ScalarType> scalar_type(std::uint8_t datatype) {
   return kTypes[datatype - 1U];
 }
 
-[[noreturn]] void refuse(const BytesOrigin& origin, const std::string& found, const std::string& expected,
+[[noreturn]] void reject(const BytesOrigin& origin, const std::string& found, const std::string& expected,
                          const char* remedy = "The driver wrote a wrong message: correct or record it again") {
   throw IoError({origin.file, origin.part, found, expected, remedy});
 }
@@ -61,7 +61,7 @@ PointBytes points_of(const PointCloud2& m, const BytesOrigin& origin) {
   const bool too_much = __builtin_mul_overflow(row_bytes, std::uint64_t{m.height}, &whole);
   const std::uint64_t count = std::uint64_t{m.width} * m.height;
   if (count == 0) return points;
-  if (m.point_step == 0) refuse(origin, shape_of(m), "a point_step above 0");
+  if (m.point_step == 0) reject(origin, shape_of(m), "a point_step above 0");
   points.count = static_cast<std::size_t>(count);
   // Some drivers leave row_step unset: without padding it is not needed.
   if (!too_much && (m.height == 1 || m.row_step == row_bytes || whole == m.data.size()) && whole <= m.data.size()) {
@@ -70,7 +70,7 @@ PointBytes points_of(const PointCloud2& m, const BytesOrigin& origin) {
   }
   const std::uint64_t needed = std::uint64_t{m.row_step} * (m.height - 1) + row_bytes;
   if (too_much || m.row_step < row_bytes || needed > m.data.size()) {
-    refuse(origin, shape_of(m), "data for all points, in rows of at least width · point_step bytes");
+    reject(origin, shape_of(m), "data for all points, in rows of at least width · point_step bytes");
   }
   points.copy.reserve(static_cast<std::size_t>(whole));
   for (std::uint64_t row = 0; row < m.height; ++row) {
@@ -82,7 +82,7 @@ PointBytes points_of(const PointCloud2& m, const BytesOrigin& origin) {
 void check_inside(const PointCloud2& m, const PointField& field, const BytesOrigin& origin) {
   const std::uint64_t end = std::uint64_t{field.offset} + size_of(*scalar_type(field.datatype));
   if (end <= m.point_step) return;
-  refuse(origin,
+  reject(origin,
          "field " + in_quotes(field.name) + " at byte " + std::to_string(field.offset) + " to " + std::to_string(end) +
              " of a point",
          "an end within point_step " + std::to_string(m.point_step));
@@ -114,11 +114,11 @@ RawCloud columns_of(const PointCloud2& message, const std::string& time_field, c
                     const std::string& part) {
   const detail::BytesOrigin origin{file, part};
   if (message.is_bigendian) {
-    detail::refuse(origin, "is_bigendian true", "little-endian points",
+    detail::reject(origin, "is_bigendian true", "little-endian points",
                    "Convert the recording on the machine it is from");
   }
   const detail::PointBytes points = detail::points_of(message, origin);
-  // Fields of a type that nobody knows cannot be used and do no harm.
+  // Fields of an unknown type are ignored.
   std::vector<detail::Field> fields;
   std::vector<const PointField*> described;
   for (const PointField& field : message.fields) {

@@ -35,7 +35,7 @@ struct RecordedMessage {
   std::filesystem::path file;
 };
 
-/// One thread uses it. Memory: what the largest message or chunk needs.
+/// Not thread-safe. Memory: what the largest message or chunk needs.
 class Recording {
  public:
   virtual ~Recording() = default;
@@ -49,7 +49,7 @@ class Recording {
   virtual void select(const RecordedTopic& topic) = 0;
 
   /// The next message of the selected topic, or nothing at the end.
-  /// @throws IoError when it cannot be read; the following call goes on behind it.
+  /// @throws IoError when it cannot be read; the following call continues after it.
   virtual std::optional<RecordedMessage> next() = 0;
 
   /// Passes over up to `count` messages; returns how many there were.

@@ -3,12 +3,12 @@
 namespace rilo {
 namespace {
 
-// Swaps rotation and translation, and turns both.
+// Swaps rotation and translation, and rotates both.
 Matrix6d swapped(const Eigen::Matrix3d& R, const Matrix6d& covariance) {
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topRightCorner<3, 3>() = R;
-  turn.bottomLeftCorner<3, 3>() = R;
-  return turn * covariance * turn.transpose();
+  Matrix6d rotation = Matrix6d::Zero();
+  rotation.topRightCorner<3, 3>() = R;
+  rotation.bottomLeftCorner<3, 3>() = R;
+  return rotation * covariance * rotation.transpose();
 }
 
 }  // namespace

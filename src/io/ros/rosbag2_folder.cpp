@@ -26,7 +26,7 @@ struct Metadata {
   bool messages_compressed = false;
 };
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& position, const std::string& found,
+[[noreturn]] void reject(const fs::path& file, const std::string& position, const std::string& found,
                          const std::string& expected) {
   throw IoError(
       {file, position, found, expected,
@@ -51,25 +51,25 @@ Metadata parse_metadata(const fs::path& folder, const fs::path& file) {
   const FileBytes bytes = read_file(file, kLargestMetadata);
   try {
     const YAML::Node info = YAML::Load(std::string(bytes.view()))["rosbag2_bagfile_information"];
-    if (!info || !info.IsMap()) refuse(file, "", "no rosbag2_bagfile_information", "the metadata of a rosbag2");
+    if (!info || !info.IsMap()) reject(file, "", "no rosbag2_bagfile_information", "the metadata of a rosbag2");
     Metadata metadata;
     const std::string mode = lower_case(text_of(info, "compression_mode"));
     const std::string format = lower_case(text_of(info, "compression_format"));
     metadata.messages_compressed = mode == "message";
     if (!mode.empty() && mode != "none" && format != "zstd") {
-      refuse(file, "compression_format", in_quotes(format), "zstd");
+      reject(file, "compression_format", in_quotes(format), "zstd");
     }
     const YAML::Node paths = info["relative_file_paths"];
     if (!paths || !paths.IsSequence() || paths.size() == 0) {
-      refuse(file, "relative_file_paths", "no list of files", "the files of the bag");
+      reject(file, "relative_file_paths", "no list of files", "the files of the bag");
     }
     for (const YAML::Node& path : paths) {
-      if (!path.IsScalar()) refuse(file, "relative_file_paths", "an entry that is no name", "the files of the bag");
+      if (!path.IsScalar()) reject(file, "relative_file_paths", "an entry that is not a name", "the files of the bag");
       metadata.files.push_back(find_file(folder, file, path.Scalar()));
     }
     return metadata;
   } catch (const YAML::Exception& error) {
-    refuse(file, at_line(static_cast<std::size_t>(error.mark.line + 1)), "text that is no YAML: " + error.msg,
+    reject(file, at_line(static_cast<std::size_t>(error.mark.line + 1)), "text that is not valid YAML: " + error.msg,
            "the metadata of a rosbag2");
   }
 }
@@ -84,14 +84,14 @@ bool is_storage(const fs::path& file) {
          has_suffix(file, ".mcap.zstd");
 }
 
-// Where the recorder was killed there is no metadata.yaml: the files speak for themselves.
+// Where the recorder was killed there is no metadata.yaml: the files are taken as they are.
 std::vector<fs::path> files_without_metadata(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (is_storage(entry->path())) files.push_back(entry->path());
   }
-  if (files.empty()) refuse(folder, "", "no .db3 and no .mcap", "the files of a rosbag2");
+  if (files.empty()) reject(folder, "", "no .db3 and no .mcap", "the files of a rosbag2");
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });

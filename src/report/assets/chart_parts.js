@@ -242,7 +242,7 @@ const coordinates = (left, right, bottom, top) => (a) => {
   }
   for (let k = Math.ceil((centre[1] - half[1]) / step); k * step <= centre[1] + half[1]; ++k) {
     const y = a.sy(k * step);
-    if (y < 18) continue;  // the labels of x stand there
+    if (y < 18) continue;  // the labels of x are there
     svg += `<line class="gridline" x1="0" x2="${a.width}" y1="${px(y)}" y2="${px(y)}"/>`;
     if (y > 24 && y < a.height - 40) svg += `<text x="${a.width - 4}" y="${px(y - 3)}" text-anchor="end">${text(k * step)}</text>`;
   }

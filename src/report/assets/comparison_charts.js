@@ -29,13 +29,13 @@ function choose(comparison, host) {
     (comparison.truth().x.length ? '<span class="truthkey"><i></i>truth</span>' : '');
   host.querySelectorAll('button').forEach((button, n) => button.addEventListener('click', () => {
     comparison.all[n].on = !comparison.all[n].on;
-    if (!comparison.shown().length) comparison.all[n].on = true;  // an empty chart helps nobody
+    if (!comparison.shown().length) comparison.all[n].on = true;  // an empty chart is useless
     button.setAttribute('aria-pressed', String(comparison.all[n].on));
     comparison.draw();
   }));
 }
 
-// Rows of name, bar and number. Values far beyond the others are cut off, or these could not be told apart.
+// Rows of name, bar and number. Values far beyond the others are cut off, or these could not be distinguished.
 function barRows(rows, digits) {
   const values = rows.map((row) => row.value).filter((v) => finite(v)).sort((a, b) => a - b);
   const median = values.length ? values[(values.length - 1) >> 1] : 0, most = values.length ? values[values.length - 1] : 0;

@@ -42,7 +42,7 @@ const experimentCharts = {
   },
 };
 
-// Change against the base in per cent, a line a sequence that has all values, the geometric mean last.
+// Change against the base in per cent, one line per sequence that has all values, the geometric mean last.
 function changes({ points, base }, figure, configurations, sequences) {
   const places = points.map(([, name]) => configurations.indexOf(name)), from = configurations.indexOf(base), lines = [];
   const sums = points.map(() => 0);

@@ -265,12 +265,12 @@ TEST(RecordingTest, FilesThatAreNone) {
   expect_io_error([&] { open_scan_source(folder.write("a.mcap", "")); }, {"a.mcap, byte 0", "0 bytes"});
   expect_io_error([&] { open_scan_source(folder.write("b.mcap", "12345678901234")); }, {"byte 0", "start of an MCAP"});
   expect_io_error([&] { open_scan_source(folder.write("a.db3", "not SQLite, but long enough to be looked into")); },
-                  {"a.db3", "SQLite3 says"});
+                  {"a.db3", "SQLite3: "});
   expect_io_error([&] { open_scan_source(folder.write("b.db3", "")); }, {"b.db3", "no table topics"});
   expect_io_error([&] { open_scan_source(folder.write("a.bag", "#ROSBAG V1.2\n")); }, {"a.bag"});
   expect_io_error([&] { open_scan_source(folder.write("b.bag", "")); }, {"b.bag"});
   folder.write("m/metadata.yaml", "rosbag2_bagfile_information: [");
-  expect_io_error([&] { open_scan_source(folder / "m"); }, {"metadata.yaml", "no YAML"});
+  expect_io_error([&] { open_scan_source(folder / "m"); }, {"metadata.yaml", "not valid YAML"});
   folder.write("m/metadata.yaml", "x: 1\n");
   expect_io_error([&] { open_scan_source(folder / "m"); }, {"metadata.yaml", "no rosbag2_bagfile_information"});
   folder.write("m/metadata.yaml", test::metadata_yaml({"gone.db3"}, "sqlite3"));

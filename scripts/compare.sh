@@ -35,7 +35,7 @@ cd "$caller"
 drives="$1" peers="$2"
 shift 2
 [ -d "$drives" ] || die "$drives: no folder; expected one with a folder a drive"
-[ -e "$peers" ] || die "$peers: nothing of this name; expected a CSV with figures, or a folder with poses"
+[ -e "$peers" ] || die "$peers: no such file; expected a CSV with figures, or a folder with poses"
 
 options=()
 if $all; then

@@ -152,8 +152,8 @@ TEST(PoseFileTest, KittiErrorsHaveLineAndColumn) {
   fails("1 0 0 five 0 1 0 6 0 0 1 7\n", {"line 2, column 7", "'five'"});
   fails("1 0 0 nan 0 1 0 6 0 0 1 7\n", {"line 2, column 7", "finite"});
   fails("1 0 0 1e999 0 1 0 6 0 0 1 7\n", {"line 2, column 7"});
-  fails("2 0 0 5 0 1 0 6 0 0 1 7\n", {"line 2", "no rotation", "rigid"});
-  fails("0 0 0 5 0 0 0 6 0 0 0 7\n", {"line 2", "no rotation"});
+  fails("2 0 0 5 0 1 0 6 0 0 1 7\n", {"line 2", "not a rotation", "rigid"});
+  fails("0 0 0 5 0 0 0 6 0 0 0 7\n", {"line 2", "not a rotation"});
   fails("-1 0 0 5 0 1 0 6 0 0 1 7\n", {"line 2", "reflection"});
   expect_io_error([&] { read_kitti_poses(folder / "none.txt"); }, {"none.txt", "No such file"});
   expect_io_error([&] { read_kitti_poses(folder.path()); }, {"it is a folder"});
@@ -185,7 +185,7 @@ TEST(PoseFileTest, Calibration) {
   expect_io_error([&] { read_kitti_calibration(folder.write("bad.txt", "P0: 1\nTr: 0 -1 0\n")); },
                   {"bad.txt", "line 2", "3 values"});
   expect_io_error([&] { read_kitti_calibration(folder.write("bad.txt", "Tr: 0 1 0 0 0 0 0 0 0 0 0 0\n")); },
-                  {"line 1", "no rotation"});
+                  {"line 1", "not a rotation"});
 }
 
 TEST(PoseFileTest, Stamps) {

@@ -252,7 +252,7 @@ TEST(OusterTest, OfSeveralMetadataTheOneOfItsName) {
   folder.write("drive_7.json", ouster_metadata(shape));  // the longer beginning of the recording's name
   EXPECT_EQ(sweeps(), 1U);
   folder.write("drive_7_part_metadata.json", ouster_metadata(kOusterShapes[0]));
-  expect_io_error([&] { open_scan_source(file); }, {"drive_7_part_metadata.json says"});
+  expect_io_error([&] { open_scan_source(file); }, {"as in", "drive_7_part_metadata.json"});
   folder.write("drive_7_part_0.json", ouster_metadata(shape));
   expect_io_error([&] { open_scan_source(file); }, {"6 metadata files", "does not say which"});
   folder.write("drive_7_part.json", ouster_metadata(shape));

@@ -170,7 +170,7 @@ TEST(OusterPacketsTest, MetadataThatDoNotFit) {
   };
   const auto other = write(ouster_metadata(kOusterShapes[0]));
   expect_io_error([&] { open_scan_source(other); },
-                  {"o.mcap", "70 of 1024 bytes", "1088 bytes, as topic /os_node/metadata says"});
+                  {"o.mcap", "70 of 1024 bytes", "1088 bytes, as in topic /os_node/metadata"});
   const auto broken = write(R"({"lidar_mode": "1024x0"})");
   expect_io_error([&] { open_scan_source(broken); }, {"o.mcap", "topic /os_node/metadata, lidar_mode", "'1024x0'"});
 }

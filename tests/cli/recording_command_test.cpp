@@ -114,7 +114,7 @@ TEST(RecordingCommand, InfoListsTheTopicsToChooseFrom) {
   EXPECT_EQ(info["topics"][0]["messages"], 13);
   EXPECT_EQ(info["topics"][0]["frame_id"], "lidar");
   EXPECT_EQ(info["topics"][1]["name"], "/rear");
-  EXPECT_NE(rilo_succeeds({"info", file}).out.find("--topic /points --out results"), std::string::npos);
+  EXPECT_NE(rilo_succeeds({"info", file}).out.find("--topic '/points' --out results"), std::string::npos);
 }
 
 TEST(RecordingCommand, ATopicOfDataWithoutTopicsIsANote) {

@@ -13,7 +13,8 @@ constexpr int kFirstSweepRounds = 3;  // each compensates the first sweep with t
 // a metre wide, and three steps a sweep are 135 km/h.
 constexpr double kSecondStepM = 1.25;
 constexpr int kSecondSteps = 3;
-constexpr std::size_t kSecondStride = 8;  // which basin is the better one shows on a sample
+constexpr std::size_t kSecondStride = 8;  // a sample shows which basins are the best ones
+constexpr std::size_t kSecondStarts = 2;  // of which so many are tried with all points
 // Optima nearer than this are the same one: their scores differ by the sample of the score.
 constexpr double kSameOptimumM = 0.1;
 constexpr double kSameOptimumRad = 0.02;
@@ -54,8 +55,8 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
   }
   Registration found = from(initial, parts_.tracker.prior(refuted));
   if (parts_.map.sweeps() == 1) {
-    if (const auto start = other_second_start(found)) {
-      try_from(*start, found);
+    for (const MotionState& start : other_second_starts(found)) {
+      try_from(start, found);
     }
   } else if (parts_.initial_pose.suspicious(found.score, found.icp.residual_rms_m)) {
     try_places_on_path(predicted, found);
@@ -105,12 +106,12 @@ void RegistrationStage::try_places_on_path(const MotionState& predicted, Registr
 
 /// No motion is known at the second sweep, and along a road it has several optima: at rest, too, when most of what it
 /// sees runs along the road or drives with the sensor. Registers a sample of it from places along the direction that
-/// it constrains least; the best result that lies elsewhere than `found`.
-std::optional<MotionState> RegistrationStage::other_second_start(const Registration& found) const {
+/// it constrains least; the best results that lie elsewhere than `found` and each other, best first.
+std::vector<MotionState> RegistrationStage::other_second_starts(const Registration& found) const {
   const TimedCloud sample = every(parts_.prepared.source, kSecondStride);
   const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
   const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
-  std::optional<Registration> best;
+  std::vector<Registration> results;
   for (int k = -kSecondSteps; k <= kSecondSteps; ++k) {
     SE3 place = parts_.tracker.trusted().T_odom_lidar;
     place.translation() += k * kSecondStepM * weakest;
@@ -119,16 +120,24 @@ std::optional<MotionState> RegistrationStage::other_second_start(const Registrat
         parts_.map.first_can_be_compensated()
             ? parts_.map.first_compensated(start.twist, parts_.prepared.scene_range_m, parts_.pose_by_elevation)
             : parts_.map.map();
-    Registration other;
+    Registration& other = results.emplace_back();
     other.icp = adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, parts_.config.icp);
     other.score = parts_.initial_pose.score(parts_.prepared.source, other.icp.state, map);
-    const double apart_m =
-        (other.icp.state.T_odom_lidar.translation() - found.icp.state.T_odom_lidar.translation()).norm();
-    if (other.icp.converged() && apart_m > 0.5 * kSecondStepM && (!best || quality(other) > quality(*best))) {
-      best = std::move(other);
+  }
+  std::stable_sort(results.begin(), results.end(),
+                   [](const Registration& a, const Registration& b) { return quality(a) > quality(b); });
+  std::vector<MotionState> starts = {found.icp.state};
+  for (const Registration& other : results) {
+    const bool elsewhere = std::all_of(starts.begin(), starts.end(), [&](const MotionState& start) {
+      return (start.T_odom_lidar.translation() - other.icp.state.T_odom_lidar.translation()).norm() >
+             0.5 * kSecondStepM;
+    });
+    if (elsewhere && starts.size() <= kSecondStarts) {
+      starts.push_back(other.icp.state);
     }
   }
-  return best ? std::optional(best->icp.state) : std::nullopt;
+  starts.erase(starts.begin());
+  return starts;
 }
 
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "cloud/preprocess.hpp"
 #include "geometry/pose_derivative.hpp"
@@ -48,7 +49,7 @@ class RegistrationStage {
   Registration second_sweep(const MotionState& start, const MotionPrior& first_prior) const;
   void try_from(const MotionState& start, Registration& found) const;
   void try_places_on_path(const MotionState& predicted, Registration& found) const;
-  std::optional<MotionState> other_second_start(const Registration& found) const;
+  std::vector<MotionState> other_second_starts(const Registration& found) const;
 
   Parts parts_;
 };

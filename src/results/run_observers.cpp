@@ -11,7 +11,7 @@
 #include "console/failure.hpp"
 #include "console/interrupt.hpp"
 #include "io/stamp_difference.hpp"
-#include "rilo/session/steady_clock.hpp"
+#include "session/steady_clock.hpp"
 
 namespace rilo {
 

@@ -1,6 +1,7 @@
 #include "odometry/registration_stage.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -9,6 +10,7 @@ namespace rilo {
 
 namespace {
 constexpr int kFirstSweepRounds = 3;  // each compensates the first sweep with the velocity of the round before
+constexpr int kNearbyRounds = 2;      // the last ones: the wide gate of the first may leave the basin of the start
 // Starts of the second sweep along the direction that it constrains least. The basin of an optimum on a road is about
 // a metre wide, and three steps a sweep are 135 km/h.
 constexpr double kSecondStepM = 1.25;
@@ -53,10 +55,10 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
     initial = {init.T_odom_lidar, parts_.tracker.implied_twist(init.T_odom_lidar)};
     refuted = initial;
   }
-  Registration found = from(initial, parts_.tracker.prior(refuted));
+  Registration found = from(initial, parts_.tracker.prior(refuted), kFirstSweepRounds);
   if (parts_.map.sweeps() == 1) {
     for (const MotionState& start : other_second_starts(found)) {
-      try_from(start, found);
+      try_from(start, kNearbyRounds, found);
     }
   } else if (parts_.initial_pose.suspicious(found.score, found.icp.residual_rms_m)) {
     try_places_on_path(predicted, found);
@@ -70,8 +72,10 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
   return found;
 }
 
-Registration RegistrationStage::from(const MotionState& start, const MotionPrior& prior) const {
-  return parts_.map.first_can_be_compensated() ? second_sweep(start, prior) : to_map(start, prior, parts_.sigma_th_m);
+/// A second sweep in so many rounds.
+Registration RegistrationStage::from(const MotionState& start, const MotionPrior& prior, int rounds) const {
+  return parts_.map.first_can_be_compensated() ? second_sweep(start, prior, rounds)
+                                               : to_map(start, prior, parts_.sigma_th_m);
 }
 
 Registration RegistrationStage::to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m) const {
@@ -84,8 +88,8 @@ Registration RegistrationStage::to_map(const MotionState& start, const MotionPri
 
 /// Registers from another start and keeps what ends elsewhere and fits clearly better, or settles where `found` did
 /// not.
-void RegistrationStage::try_from(const MotionState& start, Registration& found) const {
-  Registration other = from(start, parts_.tracker.prior(start));
+void RegistrationStage::try_from(const MotionState& start, int rounds, Registration& found) const {
+  Registration other = from(start, parts_.tracker.prior(start), rounds);
   const double margin = 1.0 + parts_.config.initial_pose.margin;
   const bool settles = settled(other) && !settled(found) && quality(other) > quality(found);
   if (settles || (!same_optimum(other, found) && quality(other) > margin * quality(found))) {
@@ -100,7 +104,7 @@ void RegistrationStage::try_places_on_path(const MotionState& predicted, Registr
     if (!parts_.time_left()) {
       return;
     }
-    try_from({place, parts_.tracker.implied_twist(place)}, found);
+    try_from({place, parts_.tracker.implied_twist(place)}, kFirstSweepRounds, found);
   }
 }
 
@@ -133,7 +137,8 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
              0.5 * kSecondStepM;
     });
     if (elsewhere && starts.size() <= kSecondStarts) {
-      starts.push_back(other.icp.state);
+      const SE3& T = other.icp.state.T_odom_lidar;
+      starts.push_back({T, parts_.tracker.implied_twist(T)});
     }
   }
   starts.erase(starts.begin());
@@ -142,19 +147,20 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
 
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the
 /// second one implies, which the registration refines.
-Registration RegistrationStage::second_sweep(const MotionState& start, const MotionPrior& first_prior) const {
+Registration RegistrationStage::second_sweep(const MotionState& start, const MotionPrior& first_prior,
+                                             int rounds) const {
   Registration found;
   found.icp.state = start;
   found.T_init = start.T_odom_lidar;
   int iterations = 0;
-  double sigma_m = parts_.sigma_th_m;
-  for (int round = 0; round < kFirstSweepRounds; ++round) {
+  for (int round = kFirstSweepRounds - rounds; round < kFirstSweepRounds; ++round) {
+    // Each round starts nearer.
+    const double sigma_m = std::max(std::ldexp(parts_.sigma_th_m, -round), parts_.config.threshold.floor_m);
     found.map =
         parts_.map.first_compensated(found.icp.state.twist, parts_.prepared.scene_range_m, parts_.pose_by_elevation);
-    const MotionPrior prior = round == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
+    const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
     found.icp = adaptive_icp(parts_.prepared.source, *found.map, found.icp.state, prior, sigma_m, parts_.config.icp);
     iterations += found.icp.iterations;
-    sigma_m = std::max(0.5 * sigma_m, parts_.config.threshold.floor_m);  // each round starts nearer
   }
   found.icp.iterations = iterations;
   found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, *found.map);

@@ -14,7 +14,7 @@ die() {
 
 # print_sources0: our C++ files, NUL-separated.
 print_sources0() {
-  find src include apps tests examples benchmarks fuzz python ros1 -type f \( -name '*.cpp' -o -name '*.hpp' \) -print0 | sort -z
+  find src include apps tests examples benchmarks fuzz python ros1 ros2 -type f \( -name '*.cpp' -o -name '*.hpp' \) -print0 | sort -z
 }
 
 # build_preset PRESET [cmake --build arguments]: configures and builds, quietly when nothing is wrong. With RILO_UNITY=ON

@@ -201,9 +201,9 @@ def test_keys_of_the_configuration_and_a_file_are_taken(topics, drive, tmp_path)
 
 @pytest.mark.parametrize("parameters, told", [
     ({"icp": {"max_iteration": 7}}, b"icp.max_iterations"),
-    ({"queue": -1}, b"~queue"),
-    ({"publish_tf": "perhaps"}, b"~publish_tf"),
-    ({"base_to_lidar": [1, 2]}, b"~base_to_lidar"),
+    ({"queue": -1}, b"parameter queue"),
+    ({"publish_tf": "perhaps"}, b"parameter publish_tf"),
+    ({"base_to_lidar": [1, 2]}, b"parameter base_to_lidar"),
     ({"config": "nowhere.yaml"}, b"nowhere.yaml"),
 ])
 def test_wrong_parameters_end_the_node(ros, parameters, told):

@@ -6,10 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
+
+#include "rilo/io/point_cloud2.hpp"
 
 namespace rilo {
 
@@ -28,12 +32,18 @@ struct LiveQueueCounts {
   std::size_t waiting = 0;
 };
 
-/// ROS 1 messages on their way from the thread that receives them to the one that reads the source.
+/// A message that lies in somebody's memory: nothing of it is copied.
+struct LiveCloud {
+  PointCloud2 message;
+  std::shared_ptr<const void> owner;  ///< keeps what message.data looks into
+};
+
+/// Messages on their way from the thread that receives them to the one that reads the source.
 class LiveQueue {
  public:
   struct Message {
     std::int64_t received_ns = 0;
-    std::string bytes;  ///< of a sensor_msgs/PointCloud2, serialized
+    std::variant<std::string, LiveCloud> content;  ///< the bytes of a ROS 1 message, or one as ROS 2 hands it over
   };
 
   explicit LiveQueue(LiveQueueOptions options) : options_(std::move(options)) {}

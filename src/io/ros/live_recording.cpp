@@ -1,6 +1,8 @@
 #include "io/ros/live_recording.hpp"
 
+#include <string>
 #include <utility>
+#include <variant>
 
 namespace rilo::detail {
 namespace {
@@ -10,7 +12,7 @@ class LiveRecording final : public Recording {
   explicit LiveRecording(std::shared_ptr<LiveQueue> queue)
       : queue_(std::move(queue)), topics_{{queue_->options().topic, "sensor_msgs/PointCloud2", "ros1", std::nullopt}} {}
 
-  std::string format() const override { return "ROS 1 topic"; }
+  std::string format() const override { return "ROS topic"; }
   const std::vector<RecordedTopic>& topics() const override { return topics_; }
 
   void select(const RecordedTopic& /*topic*/) override {
@@ -38,7 +40,10 @@ class LiveRecording final : public Recording {
 
  private:
   RecordedMessage view_of(const LiveQueue::Message& message) const {
-    return {message.received_ns, message.bytes, "live"};
+    if (const auto* cloud = std::get_if<LiveCloud>(&message.content)) {
+      return {message.received_ns, {}, "live", &cloud->message};
+    }
+    return {message.received_ns, std::get<std::string>(message.content), "live"};
   }
 
   std::shared_ptr<LiveQueue> queue_;

@@ -33,6 +33,7 @@ struct RecordedMessage {
   std::int64_t received_ns = 0;  ///< when the recorder got it
   std::string_view bytes;        ///< valid until the next call
   std::filesystem::path file;
+  const PointCloud2* cloud = nullptr;  ///< instead of bytes: the message itself, valid as long
 };
 
 /// Not thread-safe. Memory: what the largest message or chunk needs.

@@ -28,9 +28,13 @@ void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, con
     into = {livox.stamp_ns, std::move(livox.frame_id), std::move(livox.cloud)};
     return;
   }
-  PointCloud2 cloud = parse_point_cloud2(message.bytes, encoding_of(topic), message.file, part);
+  PointCloud2 parsed;
+  if (message.cloud == nullptr) {
+    parsed = parse_point_cloud2(message.bytes, encoding_of(topic), message.file, part);
+  }
+  const PointCloud2& cloud = message.cloud == nullptr ? parsed : *message.cloud;
   into.stamp_ns = cloud.stamp_ns;
-  into.frame_id = std::move(cloud.frame_id);
+  into.frame_id = cloud.frame_id;
   into.cloud = columns_of(cloud, time_field, message.file, part);
 }
 

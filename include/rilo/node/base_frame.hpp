@@ -7,7 +7,7 @@
 
 #include "rilo/odometry/sweep_result.hpp"
 
-namespace rilo::ros1 {
+namespace rilo {
 
 /// Pose of the base where the LiDAR is at T_odom_lidar from where it began; `T_world_odom` is put before it.
 SE3 base_pose(const SE3& T_odom_lidar, const SE3& T_base_lidar, const SE3& T_world_odom);
@@ -18,4 +18,4 @@ SweepResult of_base(const SweepResult& result, const SE3& T_base_lidar, const SE
 /// `points` seen from another frame.
 void transform_points(const SE3& T, std::vector<Eigen::Vector3f>& points);
 
-}  // namespace rilo::ros1
+}  // namespace rilo

@@ -1,32 +1,22 @@
-// The odometry on the sweeps of a queue, in the frames that the robot uses. C++17, as ROS 1's headers need it: what is
-// behind it is not.
+// The odometry on the sweeps of a queue, in the frames that the robot uses.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "node_options.hpp"
+#include "rilo/cloud/thinned_map.hpp"
 #include "rilo/geometry/trajectory.hpp"
 #include "rilo/io/live_queue.hpp"
+#include "rilo/io/scan_source.hpp"
+#include "rilo/node/node_health.hpp"
+#include "rilo/node/node_options.hpp"
+#include "rilo/odometry/odometry.hpp"
 #include "rilo/odometry/sweep_result.hpp"
 
-namespace rilo::ros1 {
-
-/// What was decided and counted about the sweeps so far (StampFaults, SourceInfo).
-struct SourceFigures {
-  std::size_t gaps = 0;
-  std::size_t missing = 0;
-  std::size_t duplicates = 0;
-  std::size_t out_of_order = 0;
-  std::size_t clock_jumps = 0;
-  std::string point_times = "none";
-  std::string lidar_frame;
-};
+namespace rilo {
 
 /// Poses, path and maps are those of the base in odom_frame: base_to_lidar and what set_pose() said are in them.
 /// next_sweep() is for one thread; the rest is, with another lock of the caller, for one thread at a time.
@@ -34,9 +24,6 @@ class OdometrySession {
  public:
   /// @throws std::invalid_argument as Odometry.
   OdometrySession(const NodeOptions& options, std::shared_ptr<LiveQueue> queue);
-  ~OdometrySession();
-  OdometrySession(const OdometrySession&) = delete;
-  OdometrySession& operator=(const OdometrySession&) = delete;
 
   /// Waits for the next sweep and keeps it. False when the queue was closed. @throws IoError when it cannot be read.
   bool next_sweep();
@@ -51,7 +38,8 @@ class OdometrySession {
   /// Time between the last two poses, s; 0 without two.
   double last_step_s() const;
 
-  void reset();
+  /// Starts anew, with another configuration when one is given.
+  void reset(const std::optional<OdometryConfig>& config = std::nullopt);
 
   /// The base was there at the last sweep (before the first: is there at the first).
   void set_pose(const SE3& T_odom_base);
@@ -63,11 +51,17 @@ class OdometrySession {
   std::vector<Eigen::Vector3f> map() const;
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  std::vector<Eigen::Vector3f> in_odom_frame(std::vector<Eigen::Vector3f> points) const;
+
+  SourceOptions source_options_;
+  std::shared_ptr<LiveQueue> queue_;
+  std::unique_ptr<ScanSource> source_;
+  std::optional<Sweep> sweep_;
+  Odometry odometry_;
+  double map_voxel_m_;
+  ThinnedMap map_;
+  SE3 T_base_lidar_;
+  SE3 T_world_odom_ = SE3::Identity();  // what set_pose() said
 };
 
-/// As rilo::write_map. @throws IoError
-void save_map(const std::string& file, const std::vector<Eigen::Vector3f>& points);
-
-}  // namespace rilo::ros1
+}  // namespace rilo

@@ -1,6 +1,6 @@
-#include "base_frame.hpp"
+#include "rilo/node/base_frame.hpp"
 
-namespace rilo::ros1 {
+namespace rilo {
 
 SE3 base_pose(const SE3& T_odom_lidar, const SE3& T_base_lidar, const SE3& T_world_odom) {
   return T_world_odom * T_base_lidar * T_odom_lidar * T_base_lidar.inverse();
@@ -20,4 +20,4 @@ void transform_points(const SE3& T, std::vector<Eigen::Vector3f>& points) {
   for (Eigen::Vector3f& point : points) point = (T * point.cast<double>()).cast<float>();
 }
 
-}  // namespace rilo::ros1
+}  // namespace rilo

@@ -1,0 +1,80 @@
+"""ros2 launch rilo_ros2 odometry.launch.py points:=/velodyne_points base_frame:=base_link rviz:=true"""
+
+from pathlib import Path
+
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch_ros.actions import ComposableNodeContainer, LoadComposableNodes, Node
+from launch_ros.descriptions import ComposableNode
+
+SHARE = Path(get_package_share_directory("rilo_ros2"))
+CONTAINER_OF_ITS_OWN = "own"
+
+
+def flag(text):
+    return {"true": True, "false": False}[text.lower()]
+
+
+# Parameters of the node: what is left empty is as the parameter file says.
+PARAMETERS = {
+    "config": (str, "YAML configuration, as for rilo run --config"),
+    "odom_frame": (str, "where the base was at the first sweep"),
+    "base_frame": (str, "the robot's frame; empty: the LiDAR's own"),
+    "publish_tf": (flag, "odom_frame to base_frame on /tf"),
+    "invert_tf": (flag, "base_frame becomes the parent of odom_frame"),
+    "queue": (int, "sweeps that may wait; 0: all, none is dropped"),
+    "use_sim_time": (flag, "time from /clock, as ros2 bag play --clock gives it"),
+}
+ARGUMENTS = {
+    "points": ("points", "topic of the sweeps, sensor_msgs/msg/PointCloud2"),
+    "parameters": (str(SHARE / "config" / "odometry.yaml"), "parameter file"),
+    "reliable": ("false", "ask for messages again that got lost; the publisher must be reliable, too"),
+    "container": ("", f"load into this running container; {CONTAINER_OF_ITS_OWN}: into a new one; empty: no component"),
+    "rviz": ("false", "start RViz 2"),
+}
+
+
+def node_parameters(given):
+    values = {name: kind(given[name]) for name, (kind, _) in PARAMETERS.items() if given[name] != ""}
+    if flag(given["reliable"]):
+        topic = given["points"] if given["points"].startswith("/") else "/" + given["points"]
+        values[f"qos_overrides.{topic}.subscription.reliability"] = "reliable"
+        values[f"qos_overrides.{topic}.subscription.history"] = "keep_last"
+        values[f"qos_overrides.{topic}.subscription.depth"] = 100
+    return [given["parameters"], values]
+
+
+def odometry(given):
+    parameters, remappings = node_parameters(given), [("points", given["points"])]
+    container = given["container"]
+    if container == "":
+        return Node(package="rilo_ros2", executable="rilo_node", name="rilo", output="screen",
+                    parameters=parameters, remappings=remappings)
+    component = ComposableNode(package="rilo_ros2", plugin="rilo::ros2::OdometryNode", name="rilo",
+                               parameters=parameters, remappings=remappings,
+                               extra_arguments=[{"use_intra_process_comms": True}])
+    if container == CONTAINER_OF_ITS_OWN:
+        # With several threads: a map that is saved does not keep sweeps waiting.
+        return ComposableNodeContainer(package="rclcpp_components", executable="component_container_mt",
+                                       name="rilo_container", namespace="", output="screen",
+                                       composable_node_descriptions=[component])
+    return LoadComposableNodes(target_container=container, composable_node_descriptions=[component])
+
+
+def rviz():
+    return Node(package="rviz2", executable="rviz2", name="rviz2",
+                arguments=["-d", str(SHARE / "rviz" / "odometry.rviz")])
+
+
+def actions(context):
+    given = {name: context.launch_configurations[name] for name in (*PARAMETERS, *ARGUMENTS)}
+    return [odometry(given)] + ([rviz()] if flag(given["rviz"]) else [])
+
+
+def generate_launch_description():
+    declared = [DeclareLaunchArgument(name, default_value="", description=meaning)
+                for name, (_, meaning) in PARAMETERS.items()]
+    declared += [DeclareLaunchArgument(name, default_value=default, description=meaning)
+                 for name, (default, meaning) in ARGUMENTS.items()]
+    return LaunchDescription([*declared, OpaqueFunction(function=actions)])

@@ -1,0 +1,23 @@
+// rilo_node: LiDAR odometry as a ROS 2 node of its own. Topics, parameters and services: docs/ros2.md.
+#include <cstdlib>
+#include <exception>
+#include <memory>
+#include <rclcpp/rclcpp.hpp>
+
+#include "odometry_node.hpp"
+
+int main(int argc, char** argv) {
+  rclcpp::init(argc, argv);
+  try {
+    const auto node = std::make_shared<rilo::ros2::OdometryNode>(rclcpp::NodeOptions());
+    rclcpp::executors::MultiThreadedExecutor executor(rclcpp::ExecutorOptions(), 2);
+    executor.add_node(node);
+    executor.spin();
+  } catch (const std::exception& error) {
+    RCLCPP_FATAL(rclcpp::get_logger("rilo"), "%s", error.what());
+    rclcpp::shutdown();
+    return EXIT_FAILURE;
+  }
+  rclcpp::shutdown();
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,278 @@
+#include "rilo/node/live_odometry.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "node/odometry_session.hpp"
+#include "rilo/io/io_error.hpp"
+#include "rilo/io/map_writer.hpp"
+#include "rilo/node/node_health.hpp"
+
+namespace rilo {
+namespace {
+
+std::shared_ptr<LiveQueue> queue_for(const NodeOptions& options, const std::string& topic) {
+  LiveQueueOptions queue;
+  queue.topic = topic;
+  queue.limit = static_cast<std::size_t>(options.queue);
+  queue.look_ahead = static_cast<std::size_t>(options.look_ahead);
+  return std::make_shared<LiveQueue>(queue);
+}
+
+}  // namespace
+
+class LiveOdometry::Impl {
+ public:
+  Impl(const NodeOptions& node_options, const std::string& topic, NodeOutput& node_output)
+      : queue(queue_for(node_options, topic)),
+        output_(node_output),
+        options_(node_options),
+        session_(node_options, queue) {}
+
+  ~Impl() { stop(); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void start() {
+    thread_ = std::thread([this] { work(); });
+  }
+
+  void stop() {
+    stopping_ = true;
+    queue->close();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  void reset() {
+    const std::lock_guard lock(mutex_);
+    reset_held();
+  }
+
+  void set_pose(const SE3& T) {
+    const std::lock_guard lock(mutex_);
+    session_.set_pose(T);
+  }
+
+  bool set_parameters(const std::map<std::string, ParameterValue>& changes) {
+    const std::lock_guard lock(mutex_);
+    NodeOptions changed = with_parameters(options_, changes);
+    const NodeParameters parameters(changed);
+    bool waits = false;
+    for (const auto& [name, value] : changes) {
+      const ParameterChange change = parameters.at(name).change();
+      if (change == ParameterChange::kNever) {
+        throw std::invalid_argument("parameter " + name + ": expected no change while the node runs");
+      }
+      waits = waits || change == ParameterChange::kAtReset;
+    }
+    options_ = std::move(changed);
+    config_changed_ = config_changed_ || waits;
+    return waits;
+  }
+
+  std::string odom_frame() const {
+    const std::lock_guard lock(mutex_);
+    return options_.odom_frame;
+  }
+
+  PathMessage path() const {
+    const std::lock_guard lock(mutex_);
+    return path_message(session_.path(), options_.odom_frame);
+  }
+
+  CloudMessage local_map() const {
+    const std::lock_guard lock(mutex_);
+    return cloud_message(session_.local_map(), last_stamp_ns_, options_.odom_frame);
+  }
+
+  std::vector<Eigen::Vector3f> map() const {
+    const std::lock_guard lock(mutex_);
+    return session_.map();
+  }
+
+  const std::shared_ptr<LiveQueue> queue;
+  NodeHealth health;
+
+ private:
+  // True once in ten seconds: of what may go wrong with every message.
+  class Throttle {
+   public:
+    bool due() {
+      const auto now = std::chrono::steady_clock::now();
+      if (last_ && now - *last_ < std::chrono::seconds(10)) return false;
+      last_ = now;
+      return true;
+    }
+
+   private:
+    std::optional<std::chrono::steady_clock::time_point> last_;
+  };
+
+  void work() {
+    try {
+      while (!stopping_ && step()) {
+      }
+    } catch (const std::exception& error) {
+      output_.fail(error.what());
+    }
+  }
+
+  // False at the end.
+  bool step() {
+    try {
+      if (!session_.next_sweep()) return false;
+      const SourceFigures figures = session_.figures();
+      health.note_source(figures);
+      if (base_frame_.empty() && !find_extrinsic(figures.lidar_frame)) return false;
+      process(figures.clock_jumps);
+    } catch (const IoError& error) {
+      if (bad_message_.due()) output_.warn(std::string("left out: ") + error.what());
+      health.note_bad_message(error.what());
+    }
+    return true;
+  }
+
+  // Waits until it is known. False when the node ends before.
+  bool find_extrinsic(const std::string& lidar_frame) {
+    const std::string base = options_.base_frame.empty() ? lidar_frame : options_.base_frame;
+    if (options_.base_to_lidar.empty() && base != lidar_frame) {
+      const std::string wanted = "the transform " + base + " to " + lidar_frame;
+      health.note_waiting(wanted + " in TF (or the parameter base_to_lidar)");
+      Throttle complaint;
+      std::optional<SE3> T;
+      while (!(T = output_.look_up(base, lidar_frame))) {
+        if (stopping_) return false;
+        if (complaint.due()) output_.warn("waiting for " + wanted + ": publish it, or set base_to_lidar");
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+      health.note_waiting("");
+      const std::lock_guard lock(mutex_);
+      session_.set_extrinsic(*T);
+    }
+    base_frame_ = base;
+    return true;
+  }
+
+  void process(std::size_t clock_jumps) {
+    const std::lock_guard lock(mutex_);
+    if (clock_jumps > jumps_seen_) {
+      jumps_seen_ = clock_jumps;
+      output_.warn("the stamps went back in time (a bag played again, a clock that was set): the odometry starts anew");
+      reset_held();
+    }
+    const SweepResult result = session_.register_sweep();
+    last_stamp_ns_ = result.stamp_ns;
+    health.note_sweep(result, result.stats.times.total_ms);
+    publish(result, session_.last_step_s());
+  }
+
+  // With the session held, as all that follows.
+  void publish(const SweepResult& result, double step_s) {
+    output_.publish(odometry_message(result, step_s, options_.odom_frame, base_frame_));
+    if (options_.publish_tf) {
+      output_.publish(transform_message(result, options_.invert_tf, options_.odom_frame, base_frame_));
+    }
+    if (due(path_stamp_ns_, options_.path_period_s, output_.path_wanted())) {
+      output_.publish(path_message(session_.path(), options_.odom_frame));
+    }
+    if (due(map_stamp_ns_, options_.local_map_period_s, output_.local_map_wanted())) {
+      output_.publish(cloud_message(session_.local_map(), last_stamp_ns_, options_.odom_frame));
+    }
+  }
+
+  bool due(std::optional<std::int64_t>& published_ns, double period_s, bool wanted) const {
+    const double since_s = published_ns ? static_cast<double>(last_stamp_ns_ - *published_ns) * 1e-9 : period_s;
+    if (since_s < period_s || !wanted) return false;
+    published_ns = last_stamp_ns_;
+    return true;
+  }
+
+  void reset_held() {
+    session_.reset(config_changed_ ? std::optional(options_.config) : std::nullopt);
+    config_changed_ = false;
+    path_stamp_ns_.reset();
+    map_stamp_ns_.reset();
+    health.note_reset();
+  }
+
+  NodeOutput& output_;
+
+  mutable std::mutex mutex_;  // for the session (all but next_sweep()) and what follows
+  NodeOptions options_;       // frames do not change: the thread reads them without it
+  OdometrySession session_;
+  bool config_changed_ = false;
+  std::int64_t last_stamp_ns_ = 0;
+  std::optional<std::int64_t> path_stamp_ns_;
+  std::optional<std::int64_t> map_stamp_ns_;
+
+  // Of the thread.
+  std::string base_frame_;  // once the transform is known
+  std::size_t jumps_seen_ = 0;
+  Throttle bad_message_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+LiveOdometry::LiveOdometry(const NodeOptions& options, const std::string& topic, NodeOutput& output)
+    : impl_(std::make_unique<Impl>(options, topic, output)) {}
+
+LiveOdometry::~LiveOdometry() = default;
+
+void LiveOdometry::start() { impl_->start(); }
+
+void LiveOdometry::stop() { impl_->stop(); }
+
+void LiveOdometry::push(LiveQueue::Message message) { impl_->queue->push(std::move(message)); }
+
+void LiveOdometry::note_bad_message(const std::string& why) { impl_->health.note_bad_message(why); }
+
+void LiveOdometry::note_lost(std::size_t total) { impl_->health.note_lost(total); }
+
+void LiveOdometry::reset() { impl_->reset(); }
+
+std::string LiveOdometry::set_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& orientation) {
+  if (!position.allFinite() || !(std::abs(orientation.norm() - 1) < 1e-3)) {
+    return "expected a finite position and an orientation of length 1";
+  }
+  SE3 T = SE3::Identity();
+  T.linear() = orientation.normalized().toRotationMatrix();
+  T.translation() = position;
+  impl_->set_pose(T);
+  return {};
+}
+
+std::string LiveOdometry::set_initial_pose(const std::string& frame, const Eigen::Vector3d& position,
+                                           const Eigen::Quaterniond& orientation) {
+  const std::string expected = impl_->odom_frame();
+  if (frame.empty() || frame == expected) return set_pose(position, orientation);
+  return "frame " + frame + ", expected " + expected;
+}
+
+LiveOdometry::SavedMap LiveOdometry::save_map(const std::string& file) const {
+  try {
+    const MapCloud map{impl_->map(), {}, {}};
+    write_map(file, map);
+    return {true, "written: " + std::filesystem::absolute(file).string(), map.points.size()};
+  } catch (const std::exception& error) {
+    return {false, error.what(), 0};
+  }
+}
+
+bool LiveOdometry::set_parameters(const std::map<std::string, ParameterValue>& changes) {
+  return impl_->set_parameters(changes);
+}
+
+PathMessage LiveOdometry::path() const { return impl_->path(); }
+
+CloudMessage LiveOdometry::local_map() const { return impl_->local_map(); }
+
+StatusMessage LiveOdometry::report() { return impl_->health.report(impl_->queue->counts()); }
+
+}  // namespace rilo

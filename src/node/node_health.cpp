@@ -1,0 +1,144 @@
+#include "rilo/node/node_health.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace rilo {
+namespace {
+
+constexpr std::size_t kStaleReports = 5;
+
+NodeLevel level_of(OdometryStatus status) {
+  switch (status) {
+    case OdometryStatus::kOk:
+    case OdometryStatus::kInitialising:
+      return NodeLevel::kOk;
+    case OdometryStatus::kLost:
+    case OdometryStatus::kEmpty:
+      return NodeLevel::kError;
+    default:
+      return NodeLevel::kWarn;
+  }
+}
+
+// The worst counts; all that is wrong is told.
+void merge(NodeLevel level, const std::string& message, StatusMessage& status) {
+  const bool was_well = status.level == NodeLevel::kOk;
+  status.message = was_well ? message : status.message + "; " + message;
+  status.level = std::max(status.level, level);
+}
+
+}  // namespace
+
+void NodeHealth::note_waiting(const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  waiting_for_ = what;
+}
+
+void NodeHealth::note_sweep(const SweepResult& result, double total_ms) {
+  const std::lock_guard lock(mutex_);
+  last_ = result;
+  ++by_status_.at(static_cast<std::size_t>(result.status));
+  ++sweeps_;
+  last_ms_ = total_ms;
+  sum_ms_ += total_ms;
+  most_ms_ = std::max(most_ms_, total_ms);
+}
+
+void NodeHealth::note_bad_message(const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  ++bad_messages_;
+  last_bad_message_ = why;
+}
+
+void NodeHealth::note_lost(std::size_t total) {
+  const std::lock_guard lock(mutex_);
+  lost_ = total;
+}
+
+void NodeHealth::note_reset() {
+  const std::lock_guard lock(mutex_);
+  ++resets_;
+  last_.reset();
+}
+
+void NodeHealth::note_source(const SourceFigures& info) {
+  const std::lock_guard lock(mutex_);
+  source_ = info;
+}
+
+StatusMessage NodeHealth::report(const LiveQueueCounts& queue) {
+  const std::lock_guard lock(mutex_);
+  StatusMessage status;
+  silent_reports_ = queue.received == reported_queue_.received ? silent_reports_ + 1 : 0;
+  judge(queue, status);
+  add_counts(queue, status);
+  reported_queue_ = queue;
+  reported_bad_messages_ = bad_messages_;
+  reported_lost_ = lost_;
+  return status;
+}
+
+void NodeHealth::judge(const LiveQueueCounts& queue, StatusMessage& status) const {
+  if (last_) {
+    status.level = level_of(last_->status);
+    status.message = to_string(last_->status);
+  } else if (sweeps_ > 0) {
+    status.message = "reset, no sweep since";
+  } else {
+    status.message = queue.received == 0 ? "no sweep yet" : "looking at the first sweeps";
+  }
+  if (!waiting_for_.empty()) merge(NodeLevel::kError, "waiting for " + waiting_for_, status);
+  if (queue.dropped > reported_queue_.dropped) {
+    const std::size_t dropped = queue.dropped - reported_queue_.dropped;
+    merge(NodeLevel::kWarn, fmt::format("{} sweeps dropped since the last report: too slow for the sensor", dropped),
+          status);
+  }
+  if (lost_ > reported_lost_) {
+    merge(NodeLevel::kWarn, fmt::format("{} messages lost on the way since the last report", lost_ - reported_lost_),
+          status);
+  }
+  if (bad_messages_ > reported_bad_messages_) {
+    const std::size_t bad = bad_messages_ - reported_bad_messages_;
+    merge(NodeLevel::kWarn, fmt::format("{} messages that cannot be read since the last report", bad), status);
+  }
+  if (silent_reports_ >= kStaleReports) {
+    merge(NodeLevel::kStale, fmt::format("no message for {} reports", silent_reports_), status);
+  }
+}
+
+void NodeHealth::add_counts(const LiveQueueCounts& queue, StatusMessage& status) const {
+  const auto add = [&](std::string key, const auto& value) {
+    status.values.emplace_back(std::move(key), fmt::format("{}", value));
+  };
+  add("messages received", queue.received);
+  add("messages lost on the way", lost_);
+  add("sweeps registered", sweeps_);
+  add("sweeps dropped", queue.dropped);
+  add("sweeps waiting", queue.waiting);
+  add("messages that cannot be read", bad_messages_);
+  add("last that cannot be read", last_bad_message_);
+  add("resets", resets_);
+  for (std::size_t i = 0; i < kStatusCount; ++i) {
+    add("status " + std::string(to_string(static_cast<OdometryStatus>(i))), by_status_.at(i));
+  }
+  const auto add_rounded = [&](const char* key, double value) { add(key, fmt::format("{:.2f}", value)); };
+  add_rounded("ms of the last sweep", last_ms_);
+  add_rounded("ms mean", sweeps_ > 0 ? sum_ms_ / static_cast<double>(sweeps_) : 0);
+  add_rounded("ms largest", most_ms_);
+  add("gaps of the stamps", source_.gaps);
+  add("sweeps missing in the gaps", source_.missing);
+  add("duplicates left out", source_.duplicates);
+  add("out of order, left out", source_.out_of_order);
+  add("jumps back in time", source_.clock_jumps);
+  add("point times", source_.point_times);
+  add("lidar frame", source_.lidar_frame);
+  if (!last_) return;
+  add("inlier ratio", fmt::format("{:.3f}", last_->stats.inlier_ratio));
+  add("least relative eigenvalue", fmt::format("{:.2e}", last_->stats.relative_eigenvalues[0]));
+  add("map voxels", last_->stats.map_voxels);
+}
+
+}  // namespace rilo

@@ -1,0 +1,94 @@
+#include "node/odometry_session.hpp"
+
+#include <utility>
+
+#include "rilo/io/live_source.hpp"
+#include "rilo/io/point_times.hpp"
+#include "rilo/node/base_frame.hpp"
+#include "rilo/node/node_parameters.hpp"
+#include "rilo/session/steady_clock.hpp"
+
+namespace rilo {
+namespace {
+
+SE3 extrinsic_of(const NodeOptions& options) {
+  return options.base_to_lidar.empty() ? SE3::Identity() : pose_from_list(options.base_to_lidar);
+}
+
+}  // namespace
+
+OdometrySession::OdometrySession(const NodeOptions& options, std::shared_ptr<LiveQueue> queue)
+    : source_options_(options.source),
+      queue_(std::move(queue)),
+      odometry_(options.config, steady_ns),
+      map_voxel_m_(options.map_voxel_m),
+      map_(options.map_voxel_m),
+      T_base_lidar_(extrinsic_of(options)) {}
+
+std::vector<Eigen::Vector3f> OdometrySession::in_odom_frame(std::vector<Eigen::Vector3f> points) const {
+  transform_points(T_world_odom_ * T_base_lidar_, points);
+  return points;
+}
+
+bool OdometrySession::next_sweep() {
+  if (!source_) source_ = open_live_source(queue_, source_options_);
+  sweep_ = source_->next();
+  return sweep_.has_value();
+}
+
+SourceFigures OdometrySession::figures() const {
+  const SourceInfo info = source_->info();
+  const StampFaults& faults = info.faults;
+  return {faults.gaps,        faults.missing,   faults.duplicates, faults.out_of_order,
+          faults.clock_jumps, info.point_times, info.frame_id};
+}
+
+void OdometrySession::set_extrinsic(const SE3& T_base_lidar) { T_base_lidar_ = T_base_lidar; }
+
+SweepResult OdometrySession::register_sweep() {
+  SweepResult result = odometry_.register_sweep(*sweep_);
+  result.stamp_ns = pose_stamp_ns(result.stamp_ns, sweep_->stamp_ns);
+  if (map_voxel_m_ > 0 && belongs_in_map(result.status, !sweep_->times_s.empty())) {
+    map_.add(odometry_.last_map_points(), result.T_odom_lidar);
+  }
+  return of_base(result, T_base_lidar_, T_world_odom_);
+}
+
+double OdometrySession::last_step_s() const {
+  const Trajectory& poses = odometry_.trajectory();
+  if (poses.size() < 2) return 0;
+  return static_cast<double>(poses.back().stamp_ns - poses[poses.size() - 2].stamp_ns) * 1e-9;
+}
+
+void OdometrySession::reset(const std::optional<OdometryConfig>& config) {
+  if (config) {
+    odometry_ = Odometry(*config, steady_ns);
+  } else {
+    odometry_.reset();
+  }
+  map_ = ThinnedMap(map_voxel_m_);
+  T_world_odom_ = SE3::Identity();
+}
+
+void OdometrySession::set_pose(const SE3& T_odom_base) {
+  const Trajectory& poses = odometry_.trajectory();
+  const SE3 now =
+      base_pose(poses.empty() ? SE3::Identity() : poses.back().T_odom_lidar, T_base_lidar_, SE3::Identity());
+  T_world_odom_ = renormalised(T_odom_base * now.inverse());
+}
+
+Trajectory OdometrySession::path() const {
+  Trajectory path = odometry_.trajectory();
+  for (StampedPose& pose : path) {
+    pose.T_odom_lidar = base_pose(pose.T_odom_lidar, T_base_lidar_, T_world_odom_);
+  }
+  return path;
+}
+
+std::vector<Eigen::Vector3f> OdometrySession::local_map() const { return in_odom_frame(odometry_.local_map()); }
+
+std::vector<Eigen::Vector3f> OdometrySession::map() const {
+  return map_.points().empty() ? local_map() : in_odom_frame(map_.points());
+}
+
+}  // namespace rilo

@@ -1,0 +1,360 @@
+// A node without ROS: messages in, what is published, services, parameters at run time.
+#include "rilo/node/live_odometry.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+
+#include <gmock/gmock.h>
+
+#include "io/io_test_util.hpp"
+#include "rilo/node/base_frame.hpp"
+#include "rilo/odometry/odometry.hpp"
+#include "rilo/simulation/drive_simulator.hpp"
+
+namespace rilo {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::size_t kSweeps = 10;
+
+const std::vector<Sweep>& drive() {
+  static const std::vector<Sweep> kDrive = [] {
+    DriveConfig config;
+    config.sensor = SensorKind::kVlp16;
+    config.sweeps = kSweeps;
+    config.start_s = 10.0;
+    config.deskewed = true;
+    const DriveSimulator simulator(config);
+    std::vector<Sweep> sweeps;
+    for (std::size_t i = 0; i < kSweeps; ++i) {
+      sweeps.push_back(simulator.sweep(i).sweep);
+      sweeps.back().stamp_ns = static_cast<std::int64_t>(i + 1) * 100'000'000;
+      sweeps.back().rings.clear();  // the messages here have none
+    }
+    return sweeps;
+  }();
+  return kDrive;
+}
+
+// As ROS 2 hands a message over: the points stay where they are.
+LiveQueue::Message message_of(const std::shared_ptr<const Sweep>& sweep) {
+  LiveCloud cloud;
+  cloud.message.stamp_ns = sweep->stamp_ns;
+  cloud.message.frame_id = "velodyne";
+  cloud.message.height = 1;
+  cloud.message.width = static_cast<std::uint32_t>(sweep->points.size());
+  constexpr std::uint8_t kFloat32 = 7;
+  cloud.message.fields = {{"x", 0, kFloat32, 1}, {"y", 4, kFloat32, 1}, {"z", 8, kFloat32, 1}};
+  cloud.message.point_step = sizeof(Eigen::Vector3f);
+  cloud.message.data = {reinterpret_cast<const char*>(sweep->points.data()),
+                        sweep->points.size() * sizeof(Eigen::Vector3f)};
+  cloud.owner = sweep;
+  return {sweep->stamp_ns, cloud};
+}
+
+LiveQueue::Message message(std::size_t i) { return message_of(std::make_shared<Sweep>(drive()[i])); }
+
+// Keeps everything that is published.
+class Output final : public NodeOutput {
+ public:
+  void publish(const OdometryMessage& message) override { note(odometry, message); }
+  void publish(const TransformMessage& message) override { note(transforms, message); }
+  void publish(const PathMessage& message) override { note(paths, message); }
+  void publish(CloudMessage&& message) override { note(maps, message); }
+  bool path_wanted() const override { return wanted; }
+  bool local_map_wanted() const override { return wanted; }
+  std::optional<SE3> look_up(const std::string& base_frame, const std::string& lidar_frame) override {
+    const std::lock_guard lock(mutex);
+    asked.push_back(base_frame + " " + lidar_frame);
+    changed.notify_all();
+    return T_base_lidar;
+  }
+  void warn(const std::string& text) override { note(warnings, text); }
+  void fail(const std::string& why) override { note(failures, why); }
+
+  bool wait(const std::function<bool()>& condition) {
+    std::unique_lock lock(mutex);
+    return changed.wait_for(lock, std::chrono::seconds(100), condition);
+  }
+  bool wait_poses(std::size_t count) {
+    return wait([&] { return odometry.size() >= count; });
+  }
+
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<OdometryMessage> odometry;
+  std::deque<TransformMessage> transforms;
+  std::deque<PathMessage> paths;
+  std::deque<CloudMessage> maps;
+  std::deque<std::string> warnings;
+  std::deque<std::string> failures;
+  std::deque<std::string> asked;
+  std::optional<SE3> T_base_lidar;
+  bool wanted = true;
+
+ private:
+  template <typename Message>
+  void note(std::deque<Message>& into, const Message& message) {
+    const std::lock_guard lock(mutex);
+    into.push_back(message);
+    changed.notify_all();
+  }
+};
+
+NodeOptions at_once() {
+  NodeOptions options;
+  options.queue = 0;
+  options.look_ahead = 0;
+  options.path_period_s = 0;
+  options.local_map_period_s = 0;
+  return options;
+}
+
+std::vector<SE3> expected_poses(std::size_t count, const OdometryConfig& config = {}) {
+  Odometry odometry(config);
+  std::vector<SE3> poses;
+  for (std::size_t i = 0; i < count; ++i) poses.push_back(odometry.register_sweep(drive()[i]).T_odom_lidar);
+  return poses;
+}
+
+void expect_pose(const PoseMessage& pose, const SE3& expected) {
+  EXPECT_EQ(pose.position, Eigen::Vector3d(expected.translation()));
+  EXPECT_TRUE(pose.orientation.toRotationMatrix().isApprox(expected.linear(), 1e-12));
+}
+
+std::string value_of(const StatusMessage& status, const std::string& wanted) {
+  for (const auto& [key, value] : status.values) {
+    if (key == wanted) return value;
+  }
+  return "none";
+}
+
+TEST(LiveOdometry, PosesAreThoseOfTheLibrary) {
+  Output output;
+  LiveOdometry odometry(at_once(), "/points", output);
+  odometry.start();
+  for (std::size_t i = 0; i < kSweeps; ++i) odometry.push(message(i));
+  ASSERT_TRUE(output.wait_poses(kSweeps));
+  odometry.stop();
+  const std::vector<SE3> expected = expected_poses(kSweeps);
+  ASSERT_EQ(output.transforms.size(), kSweeps);
+  for (std::size_t i = 0; i < kSweeps; ++i) {
+    expect_pose(output.odometry[i].pose, expected[i]);
+    expect_pose(output.transforms[i].transform, expected[i]);
+    EXPECT_EQ(output.odometry[i].frame, "odom");
+    EXPECT_EQ(output.odometry[i].child_frame, "velodyne");
+  }
+  EXPECT_GT(expected.back().translation().norm(), 1);
+  ASSERT_EQ(output.paths.size(), kSweeps);
+  ASSERT_EQ(output.paths.back().poses.size(), kSweeps);
+  expect_pose(output.paths.back().poses[4].pose, expected[4]);
+  EXPECT_GT(output.maps.back().width, 1000U);
+  EXPECT_EQ(odometry.path().poses.size(), kSweeps);
+  EXPECT_EQ(odometry.local_map().data, output.maps.back().data);
+  EXPECT_EQ(value_of(odometry.report(), "sweeps registered"), "10");
+  EXPECT_TRUE(output.failures.empty());
+}
+
+TEST(LiveOdometry, PathAndMapComeWithTheirPeriodsAndWhenWanted) {
+  Output output;
+  NodeOptions options = at_once();
+  options.path_period_s = 0.25;
+  options.local_map_period_s = 1e6;
+  options.publish_tf = false;
+  LiveOdometry odometry(options, "/points", output);
+  odometry.start();
+  for (std::size_t i = 0; i < 7; ++i) odometry.push(message(i));
+  ASSERT_TRUE(output.wait_poses(7));
+  odometry.stop();
+  EXPECT_EQ(output.paths.size(), 3U);  // at 0, 0.3 and 0.6 s
+  EXPECT_EQ(output.maps.size(), 1U);
+  EXPECT_TRUE(output.transforms.empty());
+
+  Output nobody;
+  nobody.wanted = false;
+  LiveOdometry quiet(at_once(), "/points", nobody);
+  quiet.start();
+  quiet.push(message(0));
+  ASSERT_TRUE(nobody.wait_poses(1));
+  quiet.stop();
+  EXPECT_TRUE(nobody.paths.empty());
+  EXPECT_TRUE(nobody.maps.empty());
+}
+
+TEST(LiveOdometry, TheTransformOfTheBaseIsLookedUpOnce) {
+  Output output;
+  NodeOptions options = at_once();
+  options.base_frame = "base_link";
+  options.queue = 1;
+  LiveOdometry odometry(options, "/points", output);
+  odometry.start();
+  odometry.push(message(0));
+  ASSERT_TRUE(output.wait([&] { return output.asked.size() >= 2; }));
+  EXPECT_EQ(odometry.report().level, NodeLevel::kError);
+  for (std::size_t i = 1; i < 5; ++i) odometry.push(message(i));  // the freshest one stays
+  const SE3 T_base_lidar = pose_from_list({1, 0, 2, 0.5, 0, 0});
+  {
+    const std::lock_guard lock(output.mutex);
+    output.T_base_lidar = T_base_lidar;
+  }
+  ASSERT_TRUE(output.wait_poses(2));
+  const std::size_t asked = output.asked.size();
+  odometry.push(message(5));
+  ASSERT_TRUE(output.wait_poses(3));
+  odometry.stop();
+  EXPECT_EQ(output.asked.size(), asked);
+  EXPECT_EQ(output.asked.front(), "base_link velodyne");
+  EXPECT_EQ(value_of(odometry.report(), "sweeps dropped"), "3");
+  ASSERT_FALSE(output.warnings.empty());
+  EXPECT_THAT(output.warnings.front(), HasSubstr("base_link to velodyne"));
+  Odometry library{OdometryConfig{}};
+  for (const std::size_t i : {0U, 4U}) {
+    const SE3 T = library.register_sweep(drive()[i]).T_odom_lidar;
+    const PoseMessage& pose = output.odometry[i == 0 ? 0 : 1].pose;
+    EXPECT_LT((pose.position - base_pose(T, T_base_lidar, SE3::Identity()).translation()).norm(), 1e-12);
+  }
+  EXPECT_EQ(output.odometry.back().child_frame, "base_link");
+}
+
+TEST(LiveOdometry, StoppingEndsTheWaitForATransform) {
+  Output output;
+  NodeOptions options = at_once();
+  options.base_frame = "base_link";
+  LiveOdometry odometry(options, "/points", output);
+  odometry.start();
+  odometry.push(message(0));
+  ASSERT_TRUE(output.wait([&] { return !output.asked.empty(); }));
+  odometry.stop();
+  EXPECT_TRUE(output.odometry.empty());
+}
+
+TEST(LiveOdometry, SetPoseMovesWhatFollowsAndThePath) {
+  Output output;
+  LiveOdometry odometry(at_once(), "/points", output);
+  odometry.start();
+  for (std::size_t i = 0; i < 3; ++i) odometry.push(message(i));
+  ASSERT_TRUE(output.wait_poses(3));
+  const Eigen::Quaterniond turned(Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitZ()));
+  EXPECT_EQ(odometry.set_pose({100, -50, 3}, turned), "");
+  odometry.push(message(3));
+  ASSERT_TRUE(output.wait_poses(4));
+  const std::vector<SE3> poses = expected_poses(4);
+  SE3 wanted = SE3::Identity();
+  wanted.linear() = turned.toRotationMatrix();
+  wanted.translation() << 100, -50, 3;
+  const SE3 expected = wanted * poses[2].inverse() * poses[3];
+  EXPECT_LT((output.odometry[3].pose.position - expected.translation()).norm(), 1e-9);
+  EXPECT_LT((odometry.path().poses[2].pose.position - wanted.translation()).norm(), 1e-9);
+  EXPECT_THAT(odometry.set_pose({0, 0, 0}, Eigen::Quaterniond(0, 0, 0, 0)), HasSubstr("length 1"));
+  EXPECT_THAT(odometry.set_pose({std::nan(""), 0, 0}, turned), HasSubstr("finite"));
+  EXPECT_THAT(odometry.set_initial_pose("map", {0, 0, 0}, turned), HasSubstr("expected odom"));
+  EXPECT_EQ(odometry.set_initial_pose("odom", {1, 2, 3}, turned), "");
+  EXPECT_LT((odometry.path().poses[3].pose.position - Eigen::Vector3d(1, 2, 3)).norm(), 1e-9);
+}
+
+TEST(LiveOdometry, KeysOfTheConfigurationCountFromTheNextResetOn) {
+  Output output;
+  LiveOdometry odometry(at_once(), "/points", output);
+  odometry.start();
+  for (std::size_t i = 0; i < 3; ++i) odometry.push(message(i));
+  ASSERT_TRUE(output.wait_poses(3));
+  EXPECT_TRUE(odometry.set_parameters({{"preprocess.source_points", std::int64_t{500}}, {"publish_tf", true}}));
+  EXPECT_FALSE(odometry.set_parameters({{"publish_tf", false}}));
+  EXPECT_THROW(odometry.set_parameters({{"publish_tf", true}, {"queue", std::int64_t{3}}}), std::invalid_argument);
+  EXPECT_THROW(odometry.set_parameters({{"icp.max_iterations", std::int64_t{-3}}}), std::invalid_argument);
+  odometry.push(message(3));
+  ASSERT_TRUE(output.wait_poses(4));
+  expect_pose(output.odometry[3].pose, expected_poses(4)[3]);
+  odometry.reset();
+  for (std::size_t i = 4; i < 7; ++i) odometry.push(message(i));
+  ASSERT_TRUE(output.wait_poses(7));
+  EXPECT_EQ(output.transforms.size(), 3U);
+  OdometryConfig config;
+  config.preprocess.source_points = 500;
+  Odometry few(config);
+  Odometry many{OdometryConfig{}};
+  for (std::size_t i = 4; i < 7; ++i) {
+    const SE3 T = few.register_sweep(drive()[i]).T_odom_lidar;
+    expect_pose(output.odometry[i].pose, T);
+    EXPECT_EQ(many.register_sweep(drive()[i]).T_odom_lidar.isApprox(T, 0), i == 4);
+  }
+  EXPECT_EQ(odometry.path().poses.size(), 3U);
+}
+
+TEST(LiveOdometry, AJumpBackInTimeStartsAnew) {
+  Output output;
+  LiveOdometry odometry(at_once(), "/points", output);
+  odometry.start();
+  auto later = std::make_shared<Sweep>(drive()[3]);
+  later->stamp_ns += 60'000'000'000;
+  odometry.push(message_of(later));
+  odometry.push(message(0));
+  odometry.push(message(1));
+  ASSERT_TRUE(output.wait_poses(3));
+  odometry.stop();
+  expect_pose(output.odometry[2].pose, expected_poses(2)[1]);
+  EXPECT_EQ(value_of(odometry.report(), "resets"), "1");
+  EXPECT_THAT(output.warnings.front(), HasSubstr("back in time"));
+}
+
+TEST(LiveOdometry, AMessageThatCannotBeReadIsLeftOut) {
+  Output output;
+  LiveOdometry odometry(at_once(), "/points", output);
+  odometry.start();
+  LiveQueue::Message broken = message(1);
+  std::get<LiveCloud>(broken.content).message.width *= 2;
+  odometry.push(message(0));
+  odometry.push(broken);
+  odometry.push({0, "no message of ROS 1"});
+  odometry.push(message(2));
+  ASSERT_TRUE(output.wait_poses(2));
+  odometry.note_bad_message("of another type");
+  odometry.note_lost(5);
+  const StatusMessage report = odometry.report();
+  EXPECT_EQ(value_of(report, "messages that cannot be read"), "3");
+  EXPECT_EQ(value_of(report, "messages lost on the way"), "5");
+  EXPECT_THAT(output.warnings.front(), HasSubstr("message 2 of /points"));
+  EXPECT_EQ(output.warnings.size(), 1U);  // once in a while is enough
+}
+
+// rclcpp::Time throws on times before 1970.
+TEST(LiveOdometry, NoStampIsNegative) {
+  Output output;
+  LiveOdometry odometry(at_once(), "/points", output);
+  odometry.start();
+  auto early = std::make_shared<Sweep>(drive()[0]);
+  early->stamp_ns = -3'000'000'000;
+  odometry.push(message_of(early));
+  ASSERT_TRUE(output.wait_poses(1));
+  odometry.stop();
+  EXPECT_EQ(output.odometry[0].stamp.seconds, 0U);
+  EXPECT_EQ(odometry.local_map().stamp.seconds, 0U);
+  EXPECT_EQ(odometry.path().poses[0].stamp.seconds, 0U);
+}
+
+TEST(LiveOdometry, TheMapIsSaved) {
+  const test::TempDir folder;
+  Output output;
+  LiveOdometry odometry(at_once(), "/points", output);
+  odometry.start();
+  for (std::size_t i = 0; i < 3; ++i) odometry.push(message(i));
+  ASSERT_TRUE(output.wait_poses(3));
+  const auto file = folder.path() / "map.ply";
+  const LiveOdometry::SavedMap saved = odometry.save_map(file.string());
+  EXPECT_TRUE(saved.success) << saved.message;
+  EXPECT_GT(saved.points, 1000U);
+  EXPECT_GT(std::filesystem::file_size(file), 12 * saved.points);
+  EXPECT_THAT(saved.message, HasSubstr(file.string()));
+  const LiveOdometry::SavedMap refused = odometry.save_map((folder.path() / "map.txt").string());
+  EXPECT_FALSE(refused.success);
+  EXPECT_THAT(refused.message, HasSubstr("map.txt"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "map.txt"));
+}
+
+}  // namespace
+}  // namespace rilo

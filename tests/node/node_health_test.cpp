@@ -1,0 +1,82 @@
+// Level and sentence of the diagnostics.
+#include "rilo/node/node_health.hpp"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+namespace rilo {
+namespace {
+
+using testing::HasSubstr;
+
+std::string figure(const StatusMessage& status, const std::string& key) {
+  const auto found =
+      std::find_if(status.values.begin(), status.values.end(), [&](const auto& pair) { return pair.first == key; });
+  return found == status.values.end() ? "none" : found->second;
+}
+
+SweepResult with_status(OdometryStatus status) {
+  SweepResult result;
+  result.status = status;
+  return result;
+}
+
+TEST(NodeHealth, BeginsWithWhatItWaitsFor) {
+  NodeHealth health;
+  EXPECT_EQ(health.report({}).message, "no sweep yet");
+  EXPECT_EQ(health.report({3, 0, 3}).message, "looking at the first sweeps");
+  health.note_waiting("the transform");
+  const StatusMessage waiting = health.report({4, 0, 4});
+  EXPECT_EQ(waiting.level, NodeLevel::kError);
+  EXPECT_EQ(waiting.message, "waiting for the transform");
+}
+
+TEST(NodeHealth, TellsTheLevelOfTheLastSweep) {
+  NodeHealth health;
+  std::size_t received = 0;
+  const auto level = [&](OdometryStatus status) {
+    health.note_sweep(with_status(status), 20);
+    return health.report({++received, 0, 0}).level;
+  };
+  EXPECT_EQ(level(OdometryStatus::kOk), NodeLevel::kOk);
+  EXPECT_EQ(level(OdometryStatus::kInitialising), NodeLevel::kOk);
+  EXPECT_EQ(level(OdometryStatus::kDegenerate), NodeLevel::kWarn);
+  EXPECT_EQ(level(OdometryStatus::kRecovered), NodeLevel::kWarn);
+  EXPECT_EQ(level(OdometryStatus::kLost), NodeLevel::kError);
+  EXPECT_EQ(level(OdometryStatus::kEmpty), NodeLevel::kError);
+  health.note_reset();
+  const StatusMessage reset = health.report({++received, 0, 0});
+  EXPECT_EQ(reset.message, "reset, no sweep since");
+  EXPECT_EQ(figure(reset, "status lost"), "1");
+  EXPECT_EQ(figure(reset, "sweeps registered"), "6");
+  EXPECT_EQ(figure(reset, "ms mean"), "20.00");
+}
+
+TEST(NodeHealth, WhatIsLostIsToldOnceAndCountedForEver) {
+  NodeHealth health;
+  health.note_sweep(with_status(OdometryStatus::kDegenerate), 1);
+  health.note_bad_message("no x");
+  health.note_lost(3);
+  const StatusMessage first = health.report({10, 2, 0});
+  EXPECT_EQ(first.level, NodeLevel::kWarn);
+  EXPECT_THAT(first.message, HasSubstr("degenerate; 2 sweeps dropped"));
+  EXPECT_THAT(first.message, HasSubstr("3 messages lost on the way"));
+  EXPECT_THAT(first.message, HasSubstr("1 messages that cannot be read"));
+  const StatusMessage second = health.report({11, 2, 0});
+  EXPECT_EQ(second.message, "degenerate");
+  EXPECT_EQ(figure(second, "sweeps dropped"), "2");
+  EXPECT_EQ(figure(second, "messages lost on the way"), "3");
+  EXPECT_EQ(figure(second, "last that cannot be read"), "no x");
+}
+
+TEST(NodeHealth, SilenceIsStale) {
+  NodeHealth health;
+  health.note_sweep(with_status(OdometryStatus::kOk), 1);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(health.report({1, 0, 0}).level, NodeLevel::kOk);
+  EXPECT_EQ(health.report({1, 0, 0}).level, NodeLevel::kStale);
+  EXPECT_EQ(health.report({2, 0, 0}).level, NodeLevel::kOk);
+}
+
+}  // namespace
+}  // namespace rilo

@@ -1,0 +1,130 @@
+// The table of the nodes' parameters: values, ranges, what is refused and with which words.
+#include "rilo/node/node_parameters.hpp"
+
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "io/io_test_util.hpp"
+#include "rilo/config/config_error.hpp"
+#include "rilo/config/odometry_keys.hpp"
+
+namespace rilo {
+namespace {
+
+using test::TempDir;
+using testing::HasSubstr;
+
+template <typename Action>
+std::string refusal(const Action& action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "not refused";
+  return {};
+}
+
+TEST(NodeParameters, EveryKeyOfTheConfigurationIsThereOnce) {
+  NodeOptions options;
+  std::set<std::string> names;
+  const NodeParameters parameters(options);
+  for (const NodeParameter& parameter : parameters.all()) {
+    EXPECT_TRUE(names.insert(parameter.name()).second) << parameter.name() << " twice";
+    EXPECT_FALSE(parameter.meaning().empty()) << parameter.name();
+    EXPECT_FALSE(parameter.expected().empty()) << parameter.name();
+  }
+  OdometryConfig config;
+  const ConfigKeys keys = odometry_keys(config);
+  for (const ConfigSection& section : keys.sections()) {
+    for (const ConfigKey& key : section.keys) EXPECT_EQ(names.count(key.name()), 1U) << key.name();
+  }
+}
+
+TEST(NodeParameters, EveryValueCanBeReadAndSetAgain) {
+  NodeOptions options;
+  const NodeParameters parameters(options);
+  for (const NodeParameter& parameter : parameters.all()) {
+    const ParameterValue value = parameter.value();
+    parameter.set(value);
+    EXPECT_EQ(parameter.value(), value) << parameter.name();
+  }
+}
+
+TEST(NodeParameters, ValuesReachTheirMembers) {
+  const NodeOptions options = node_options({{"queue", std::int64_t{0}},
+                                            {"odom_frame", "world"},
+                                            {"publish_tf", false},
+                                            {"path_period", std::int64_t{3}},
+                                            {"point_times", "azimuth"},
+                                            {"base_to_lidar", std::vector<double>{1, 2, 3, 0, 0, 0}},
+                                            {"icp.max_iterations", std::int64_t{7}},
+                                            {"map.voxel_m", 0.7}});
+  EXPECT_EQ(options.queue, 0);
+  EXPECT_EQ(options.odom_frame, "world");
+  EXPECT_FALSE(options.publish_tf);
+  EXPECT_EQ(options.path_period_s, 3);
+  EXPECT_EQ(options.source.point_times, PointTimes::kAzimuth);
+  EXPECT_EQ(pose_from_list(options.base_to_lidar).translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(options.config.icp.max_iterations, 7);
+  EXPECT_EQ(options.config.map.voxel_m, 0.7);
+}
+
+TEST(NodeParameters, SingleKeysCountMoreThanTheFile) {
+  const TempDir folder;
+  const std::string file = folder.write("config.yaml", "map:\n  voxel_m: 0.7\nicp:\n  max_iterations: 5\n").string();
+  const NodeOptions options = node_options({{"config", file}, {"icp.max_iterations", std::int64_t{7}}});
+  EXPECT_EQ(options.config.map.voxel_m, 0.7);
+  EXPECT_EQ(options.config.icp.max_iterations, 7);
+  EXPECT_THROW(node_options({{"config", "nowhere.yaml"}}), IoError);
+}
+
+TEST(NodeParameters, WhatIsWrongIsNamed) {
+  EXPECT_THAT(refusal([] {
+                node_options({{"queue", std::int64_t{-1}}});
+              }),
+              HasSubstr("parameter queue: expected a whole number from 0 to 100000, found -1"));
+  EXPECT_THAT(refusal([] { node_options({{"publish_tf", "perhaps"}}); }), HasSubstr("expected true or false"));
+  EXPECT_THAT(refusal([] { node_options({{"point_times", "never"}}); }), HasSubstr("auto or none or azimuth"));
+  EXPECT_THAT(refusal([] { node_options({{"odom_frame", ""}}); }), HasSubstr("odom_frame"));
+  EXPECT_THAT(refusal([] { node_options({{"odom_frame", 3.0}}); }), HasSubstr("a text"));
+  EXPECT_THAT(refusal([] {
+                node_options({{"base_to_lidar", std::vector<double>{1, 2}}});
+              }),
+              HasSubstr("a list of x, y, z"));
+  EXPECT_THAT(refusal([] {
+                node_options({{"base_to_lidar", std::vector<double>{0, 0, 0, 0, 0, 0, 2}}});
+              }),
+              HasSubstr("length 1"));
+  EXPECT_THAT(refusal([] { node_options({{"icp.max_iteration", std::int64_t{7}}}); }), HasSubstr("icp.max_iterations"));
+  EXPECT_THAT(refusal([] { node_options({{"odomframe", "world"}}); }), HasSubstr("odom_frame"));
+  // Each in its range, but not together.
+  EXPECT_THAT(refusal([] {
+                node_options({{"preprocess.min_range_m", 90.0}, {"preprocess.max_range_m", 10.0}});
+              }),
+              HasSubstr("range_m"));
+}
+
+TEST(NodeParameters, ChangesAreTakenTogetherOrNotAtAll) {
+  const NodeOptions before = node_options({{"path_period", 2.0}});
+  const NodeOptions after = with_parameters(before, {{"path_period", 3.0}, {"icp.max_iterations", std::int64_t{7}}});
+  EXPECT_EQ(after.path_period_s, 3);
+  EXPECT_EQ(after.config.icp.max_iterations, 7);
+  EXPECT_EQ(before.path_period_s, 2);
+  EXPECT_THAT(refusal([&] {
+                with_parameters(before, {{"path_period", 3.0}, {"local_map_period", -1.0}});
+              }),
+              HasSubstr("local_map_period"));
+}
+
+TEST(NodeParameters, AnglesOfAListAreYawPitchRoll) {
+  const SE3 T = pose_from_list({1, 2, 3, 0.4, 0.02, -0.01});
+  const Eigen::Quaterniond q(T.linear());
+  const SE3 same = pose_from_list({1, 2, 3, q.x(), q.y(), q.z(), q.w()});
+  EXPECT_TRUE(T.isApprox(same, 1e-12));
+  EXPECT_NEAR(std::atan2(T(1, 0), T(0, 0)), 0.4, 1e-12);
+}
+
+}  // namespace
+}  // namespace rilo

@@ -89,7 +89,7 @@ class TransformSource {
 OdometryNode::OdometryNode(const rclcpp::NodeOptions& options)
     : Node("rilo", options),
       broadcaster_(*this),
-      odometry_(declare_parameters(*this), get_node_topics_interface()->resolve_topic_name(kCloudTopic), *this) {
+      odometry_(declare_options(*this), get_node_topics_interface()->resolve_topic_name(kCloudTopic), *this) {
   advertise();
   parameters_callback_ = add_on_set_parameters_callback(
       [this](const std::vector<rclcpp::Parameter>& parameters) { return on_parameters(parameters); });

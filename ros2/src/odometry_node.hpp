@@ -26,7 +26,7 @@ class TransformSource;
 /// Messages come in on the executor's threads; the thread of LiveOdometry publishes.
 class OdometryNode final : public rclcpp::Node, private NodeOutput {
  public:
-  /// @throws as declare_parameters().
+  /// @throws as declare_options().
   explicit OdometryNode(const rclcpp::NodeOptions& options);
   ~OdometryNode() override;
 

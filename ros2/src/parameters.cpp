@@ -53,7 +53,7 @@ rcl_interfaces::msg::ParameterDescriptor descriptor_of(const NodeParameter& para
 
 }  // namespace
 
-NodeOptions declare_parameters(rclcpp::Node& node) {
+NodeOptions declare_options(rclcpp::Node& node) {
   std::vector<rclcpp::Parameter> given;
   for (const auto& [name, value] : node.get_node_parameters_interface()->get_parameter_overrides()) {
     if (!node.has_parameter(name)) given.emplace_back(name, value);  // those of ROS are there already

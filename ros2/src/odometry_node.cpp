@@ -72,7 +72,8 @@ class TransformSource {
   explicit TransformSource(rclcpp::Node& node) : buffer_(node.get_clock()), listener_(buffer_, &node) {}
 
   std::optional<SE3> find(const std::string& base_frame, const std::string& lidar_frame) const {
-    if (!buffer_.canTransform(base_frame, lidar_frame, tf2::TimePointZero)) return std::nullopt;
+    std::string why_not;  // asked for, it is not printed
+    if (!buffer_.canTransform(base_frame, lidar_frame, tf2::TimePointZero, &why_not)) return std::nullopt;
     const auto found = buffer_.lookupTransform(base_frame, lidar_frame, tf2::TimePointZero).transform;
     const Eigen::Quaterniond q(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z);
     SE3 T = SE3::Identity();
@@ -121,6 +122,7 @@ void OdometryNode::advertise() {
                            rilo_ros2::srv::SetPose::Response::SharedPtr response) {
         const std::string wrong =
             odometry_.set_pose(Fields::position_of(request->pose), Fields::orientation_of(request->pose));
+        if (wrong.empty()) publish_present();
         response->success = wrong.empty();
         response->message = wrong.empty() ? "set; path and map moved along" : wrong;
       }));
@@ -163,7 +165,11 @@ void OdometryNode::on_initial_pose(const geometry_msgs::msg::PoseWithCovarianceS
   const auto& pose = message.pose.pose;
   const std::string wrong =
       odometry_.set_initial_pose(message.header.frame_id, Fields::position_of(pose), Fields::orientation_of(pose));
-  if (!wrong.empty()) warn("initialpose not taken: " + wrong);
+  if (wrong.empty()) {
+    publish_present();
+  } else {
+    warn("initialpose not taken: " + wrong);
+  }
 }
 
 rcl_interfaces::msg::SetParametersResult OdometryNode::on_parameters(const std::vector<rclcpp::Parameter>& parameters) {
@@ -186,6 +192,12 @@ void OdometryNode::report() {
   message->header.stamp = now();
   message->status.push_back(to_ros_status(odometry_.report(), std::string(get_name()) + ": odometry"));
   diagnostics_publisher_->publish(std::move(message));
+}
+
+// Path and map have moved or are gone: so is what waits for those who come late.
+void OdometryNode::publish_present() {
+  publish(odometry_.path());
+  publish(odometry_.local_map());
 }
 
 // Whoever has just come gets the present ones, not those of when somebody last listened.

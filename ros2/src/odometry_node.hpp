@@ -39,6 +39,7 @@ class OdometryNode final : public rclcpp::Node, private NodeOutput {
   void on_initial_pose(const geometry_msgs::msg::PoseWithCovarianceStamped& message);
   rcl_interfaces::msg::SetParametersResult on_parameters(const std::vector<rclcpp::Parameter>& parameters);
   void report();
+  void publish_present();
   void serve_newcomers();
 
   void publish(const OdometryMessage& message) override;

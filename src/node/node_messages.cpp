@@ -57,7 +57,7 @@ CloudMessage cloud_message(const std::vector<Eigen::Vector3f>& points, std::int6
   static_assert(sizeof(Eigen::Vector3f) == kCloudPointBytes);
   CloudMessage message{node_stamp(stamp_ns), frame, static_cast<std::uint32_t>(points.size()), {}};
   message.data.resize(points.size() * kCloudPointBytes);
-  if (!points.empty()) std::memcpy(message.data.data(), points.data(), message.data.size());
+  if (!points.empty()) std::memcpy(message.data.data(), points.front().data(), message.data.size());
   return message;
 }
 

@@ -138,7 +138,7 @@ NodeParameters::NodeParameters(NodeOptions& options) {
     add(keys, members);
     add_keys(keys, change);
   };
-  const auto add_text = [this](const char* name, const char* meaning, NodeParameter::Binding binding) {
+  const auto add_text = [this](const char* name, const char* meaning, const NodeParameter::Binding& binding) {
     all_.emplace_back(name, meaning, binding, ParameterChange::kNever);
   };
   add_text("config", "YAML file as for rilo run --config; single keys count more", &options.config_file);

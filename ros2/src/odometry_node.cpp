@@ -114,6 +114,7 @@ void OdometryNode::advertise() {
   services_.push_back(create_service<Trigger>(
       "~/reset", [this](Trigger::Request::SharedPtr /*request*/, Trigger::Response::SharedPtr response) {
         odometry_.reset();
+        publish_present();
         response->success = true;
         response->message = "the next sweep starts anew at the identity";
       }));
@@ -152,9 +153,12 @@ void OdometryNode::subscribe() {
   options.event_callbacks.message_lost_callback = [this](rclcpp::QOSMessageLostInfo& lost) {
     odometry_.note_lost(lost.total_count);
   };
+  // Where no sweep is to be dropped, none is pushed out while a thread of the executor is awaited.
+  constexpr std::size_t kDepthOfAll = 1000;
+  auto qos = rclcpp::SensorDataQoS();
+  if (get_parameter("queue").as_int() == 0) qos.keep_last(kDepthOfAll);
   cloud_subscription_ = create_subscription<PointCloud2>(
-      kCloudTopic, rclcpp::SensorDataQoS(),
-      [this](PointCloud2::ConstSharedPtr message) { on_cloud(std::move(message)); }, options);
+      kCloudTopic, qos, [this](PointCloud2::ConstSharedPtr message) { on_cloud(std::move(message)); }, options);
 }
 
 void OdometryNode::on_cloud(PointCloud2::ConstSharedPtr message) {

@@ -1,5 +1,5 @@
 // PointCloud2 in both encodings, and the decision what its times mean. The first byte chooses.
-#include "io/point_cloud2.hpp"
+#include "rilo/io/point_cloud2.hpp"
 
 #include "harness.hpp"
 #include "rilo/io/point_times.hpp"

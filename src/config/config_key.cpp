@@ -1,4 +1,4 @@
-#include "config/config_key.hpp"
+#include "rilo/config/config_key.hpp"
 
 #include <algorithm>
 #include <charconv>

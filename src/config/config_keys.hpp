@@ -1,7 +1,7 @@
 // Every key of the odometry's configuration.
 #pragma once
 
-#include "config/config_key.hpp"
+#include "rilo/config/config_key.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 
 namespace rilo {

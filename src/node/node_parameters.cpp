@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "config/config_keys.hpp"
+#include "config/nearest_word.hpp"
 #include "rilo/config/config_file.hpp"
-#include "rilo/config/nearest_word.hpp"
-#include "rilo/config/odometry_keys.hpp"
 
 namespace rilo {
 namespace {
@@ -32,7 +32,7 @@ struct TextOf {
 // What ConfigKey knows to do; texts and lists are no keys of a configuration.
 template <typename Binding>
 ConfigKey key_of(const std::string& name, const Binding& binding) {
-  return {name, "", "", binding};
+  return {name, {}, binding};
 }
 
 struct Expected {
@@ -74,43 +74,41 @@ struct Set {
 
 // Beside the keys that a configuration file has.
 void add_numbers(KeyVisitor& keys, NodeOptions& o) {
-  keys.integer("queue", o.queue, 0, 100000, "", "sweeps that may wait; beyond, the oldest is dropped. 0: all wait");
-  keys.integer("look_ahead", o.look_ahead, 0, 12, "",
-               "sweeps looked at before the first pose, for their period. 0: poses at once, the period is 1 / rate");
-  keys.real("map_voxel", o.map_voxel_m, 0, 100, "m", "voxel of the map that save_map writes; 0: none is kept");
+  keys.integer({"queue", "", "sweeps that may wait; beyond, the oldest is dropped. 0: all wait"}, o.queue, 0, 100000);
+  keys.integer({"look_ahead", "",
+                "sweeps looked at before the first pose, for their period. 0: poses at once, the period is 1 / rate"},
+               o.look_ahead, 0, 12);
+  keys.real({"map_voxel", "m", "voxel of the map that save_map writes; 0: none is kept"}, o.map_voxel_m, 0, 100);
 }
 
 void add_live_numbers(KeyVisitor& keys, NodeOptions& o) {
-  keys.boolean("publish_tf", o.publish_tf, "odom_frame to base_frame on /tf");
-  keys.boolean("invert_tf", o.invert_tf, "base_frame is the parent of odom_frame");
-  keys.real("path_period", o.path_period_s, 0, kLongestPeriodS, "s", "between two paths, by stamps; 0: every sweep");
-  keys.real("local_map_period", o.local_map_period_s, 0, kLongestPeriodS, "s",
-            "between two local maps, by stamps; 0: every sweep");
+  keys.boolean({"publish_tf", "", "odom_frame to base_frame on /tf"}, o.publish_tf);
+  keys.boolean({"invert_tf", "", "base_frame is the parent of odom_frame"}, o.invert_tf);
+  keys.real({"path_period", "s", "between two paths, by stamps; 0: every sweep"}, o.path_period_s, 0, kLongestPeriodS);
+  keys.real({"local_map_period", "s", "between two local maps, by stamps; 0: every sweep"}, o.local_map_period_s, 0,
+            kLongestPeriodS);
 }
 
 void add_source(KeyVisitor& keys, SourceOptions& s) {
-  keys.choice<PointTimes>("point_times", s.point_times,
-                          {{"auto", PointTimes::kAuto}, {"none", PointTimes::kNone}, {"azimuth", PointTimes::kAzimuth}},
-                          "where the times of the points come from");
-  keys.choice<PointTimeUnit>("point_time_unit", s.point_time_unit,
+  keys.choice<PointTimes>(
+      {"point_times", "", "where the times of the points come from"}, s.point_times,
+      {{"auto", PointTimes::kAuto}, {"none", PointTimes::kNone}, {"azimuth", PointTimes::kAzimuth}});
+  keys.choice<PointTimeUnit>({"point_time_unit", "", "unit of the field of times"}, s.point_time_unit,
                              {{"infer", PointTimeUnit::kInfer},
                               {"s", PointTimeUnit::kSeconds},
                               {"ms", PointTimeUnit::kMilliseconds},
                               {"us", PointTimeUnit::kMicroseconds},
                               {"ns", PointTimeUnit::kNanoseconds},
-                              {"fraction", PointTimeUnit::kFraction}},
-                             "unit of the field of times");
-  keys.choice<PointTimeReference>("point_time_reference", s.point_time_reference,
+                              {"fraction", PointTimeUnit::kFraction}});
+  keys.choice<PointTimeReference>({"point_time_reference", "", "what they count from"}, s.point_time_reference,
                                   {{"infer", PointTimeReference::kInfer},
                                    {"stamp", PointTimeReference::kStamp},
-                                   {"epoch", PointTimeReference::kEpoch}},
-                                  "what they count from");
+                                   {"epoch", PointTimeReference::kEpoch}});
   keys.choice<SpinDirection>(
-      "spin", s.spin_direction,
-      {{"clockwise", SpinDirection::kClockwise}, {"counter-clockwise", SpinDirection::kCounterClockwise}},
-      "sense of rotation seen from above, for times from the azimuth");
-  keys.real("elevation_correction", s.elevation_correction_deg, -10, 10, "deg", "added to every elevation angle");
-  keys.real("rate", s.assumed_rate_hz, 0.001, 1000, "Hz", "of the sweeps, where no period can be seen");
+      {"spin", "", "rotation direction seen from above, for times from the azimuth"}, s.spin_direction,
+      {{"clockwise", SpinDirection::kClockwise}, {"counter-clockwise", SpinDirection::kCounterClockwise}});
+  keys.real({"elevation_correction", "deg", "added to every elevation angle"}, s.elevation_correction_deg, -10, 10);
+  keys.real({"rate", "Hz", "of the sweeps, where no period can be seen"}, s.assumed_rate_hz, 0.001, 1000);
 }
 
 }  // namespace
@@ -151,8 +149,8 @@ NodeParameters::NodeParameters(NodeOptions& options) {
   add_own(add_numbers, options, ParameterChange::kNever);
   add_own(
       [](KeyVisitor& keys, NodeOptions& o) {
-        keys.real("diagnostic_period", o.diagnostic_period_s, 0.01, kLongestPeriodS, "s",
-                  "between two reports, wall time");
+        keys.real({"diagnostic_period", "s", "between two reports, wall time"}, o.diagnostic_period_s, 0.01,
+                  kLongestPeriodS);
       },
       options, ParameterChange::kNever);
   add_own(add_source, options.source, ParameterChange::kNever);

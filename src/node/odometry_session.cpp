@@ -6,7 +6,7 @@
 #include "rilo/io/point_times.hpp"
 #include "rilo/node/base_frame.hpp"
 #include "rilo/node/node_parameters.hpp"
-#include "rilo/session/steady_clock.hpp"
+#include "session/steady_clock.hpp"
 
 namespace rilo {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/point_cloud2.hpp"
+#include "rilo/io/point_cloud2.hpp"
 #include "rilo/io/cloud_reader.hpp"
 
 namespace rilo::detail {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "io/byte_cursor.hpp"
-#include "io/point_cloud2.hpp"
+#include "rilo/io/point_cloud2.hpp"
 
 namespace rilo::detail {
 

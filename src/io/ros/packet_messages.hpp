@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/point_cloud2.hpp"
+#include "rilo/io/point_cloud2.hpp"
 
 namespace rilo::detail {
 

@@ -6,7 +6,7 @@
 
 #include "io/io_test_util.hpp"
 #include "io/packets/velodyne.hpp"
-#include "io/point_cloud2.hpp"
+#include "rilo/io/point_cloud2.hpp"
 #include "io/real_files.hpp"
 #include "rilo/odometry/odometry.hpp"
 

@@ -1,4 +1,4 @@
-#include "io/point_cloud2.hpp"
+#include "rilo/io/point_cloud2.hpp"
 
 #include <cmath>
 #include <random>

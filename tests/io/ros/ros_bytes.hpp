@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/point_cloud2.hpp"
+#include "rilo/io/point_cloud2.hpp"
 #include "rilo/cloud/sweep.hpp"
 
 namespace rilo::test {

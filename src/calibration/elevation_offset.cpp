@@ -157,7 +157,7 @@ double ElevationOffsetEstimator::advance() {
     return 0.0;
   }
   const double estimate = offset_rad();
-  const double target = std::abs(estimate) > kTakeBack * sigma_rad() ? estimate : 0.0;
+  const double target = std::abs(estimate) > std::min(kTakeBack, config_.significance) * sigma_rad() ? estimate : 0.0;
   const double step = config_.step_deg * kRadPerDeg;
   const double change = std::clamp(target - applied_rad_, -step, step);
   applied_rad_ += change;

@@ -11,6 +11,10 @@ constexpr int kEnoughIterations = 20;
 constexpr double kYoungShare = 0.5;  // of the usual score, that a map of a few sweeps reaches
 // In a place that shows less and less, the first sweep that is lost would lose all that follow.
 constexpr double kRecoveryShare = 0.94;
+
+bool is_degenerate(const IcpResult& icp, const HealthConfig& config) {
+  return icp.degeneracy.relative_eigenvalues[0] < config.degenerate_ratio;
+}
 }  // namespace
 
 bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
@@ -20,8 +24,8 @@ bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig
   if (!icp.converged() && icp.iterations >= kEnoughIterations) {
     return false;
   }
-  if (evidence.second_sweep && icp.frozen) {
-    return false;
+  if (evidence.second_sweep && (icp.frozen || is_degenerate(icp, config))) {
+    return false;  // along a road with little to hold on to it fits metres off, too
   }
   const double share = (evidence.was_lost ? kRecoveryShare : 1.0) * config.lost_share;
   const double expected = (evidence.young_map ? kYoungShare : 1.0) * evidence.usual_score;
@@ -39,7 +43,7 @@ OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const Healt
   if (evidence.was_lost) {
     return OdometryStatus::kRecovered;
   }
-  if (icp.degeneracy.relative_eigenvalues[0] < config.degenerate_ratio) {
+  if (is_degenerate(icp, config)) {
     return OdometryStatus::kDegenerate;
   }
   return OdometryStatus::kOk;

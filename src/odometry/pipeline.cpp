@@ -197,7 +197,7 @@ void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted,
 
 void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result) {
   result.status = OdometryStatus::kInitialising;
-  judge_.accept(prepared);
+  judge_.begin(prepared);
   map_.begin(prepared.map_cloud, state, prepared.scene_range_m, calibration_.pose_by_elevation());
   tracker_.begin(state);
   initial_pose_.begin(prepared.source, state, map_.map());

@@ -35,8 +35,11 @@ TimedCloud every(const TimedCloud& cloud, std::size_t stride) {
   return sample;
 }
 
-/// How well a registration fits: score over residual.
-double quality(const Registration& registration) { return registration.score / registration.icp.residual_rms_m; }
+/// How well a registration fits, to be compared on the same points and within the same gate: what fits over how far it
+/// is off. The score sees small differences, the correspondences all points.
+double quality(const Registration& registration) {
+  return registration.score * static_cast<double>(registration.icp.inliers) / registration.icp.residual_rms_m;
+}
 
 /// Converged without points that had to be held.
 bool settled(const Registration& registration) { return registration.icp.converged() && !registration.icp.frozen; }
@@ -74,8 +77,7 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
 
 /// A second sweep in so many rounds.
 Registration RegistrationStage::from(const MotionState& start, const MotionPrior& prior, int rounds) const {
-  return parts_.map.first_can_be_compensated() ? second_sweep(start, prior, rounds)
-                                               : to_map(start, prior, parts_.sigma_th_m);
+  return parts_.map.sweeps() == 1 ? second_sweep(start, prior, rounds) : to_map(start, prior, parts_.sigma_th_m);
 }
 
 Registration RegistrationStage::to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m) const {
@@ -120,10 +122,7 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
     SE3 place = parts_.tracker.trusted().T_odom_lidar;
     place.translation() += k * kSecondStepM * weakest;
     const MotionState start{place, parts_.tracker.implied_twist(place)};
-    const LocalMap map =
-        parts_.map.first_can_be_compensated()
-            ? parts_.map.first_compensated(start.twist, parts_.prepared.scene_range_m, parts_.pose_by_elevation)
-            : parts_.map.map();
+    const LocalMap map = of_first_sweep(start.twist);
     Registration& other = results.emplace_back();
     other.icp = adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, parts_.config.icp);
     other.score = parts_.initial_pose.score(parts_.prepared.source, other.icp.state, map);
@@ -145,6 +144,13 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
   return starts;
 }
 
+/// The map of the first sweep, compensated for a velocity if it carries times.
+LocalMap RegistrationStage::of_first_sweep(const Vector6d& twist) const {
+  return parts_.map.first_can_be_compensated()
+             ? parts_.map.first_compensated(twist, parts_.prepared.scene_range_m, parts_.pose_by_elevation)
+             : parts_.map.map();
+}
+
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the
 /// second one implies, which the registration refines.
 Registration RegistrationStage::second_sweep(const MotionState& start, const MotionPrior& first_prior,
@@ -156,8 +162,7 @@ Registration RegistrationStage::second_sweep(const MotionState& start, const Mot
   for (int round = kFirstSweepRounds - rounds; round < kFirstSweepRounds; ++round) {
     // Each round starts nearer.
     const double sigma_m = std::max(std::ldexp(parts_.sigma_th_m, -round), parts_.config.threshold.floor_m);
-    found.map =
-        parts_.map.first_compensated(found.icp.state.twist, parts_.prepared.scene_range_m, parts_.pose_by_elevation);
+    found.map = of_first_sweep(found.icp.state.twist);
     const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
     found.icp = adaptive_icp(parts_.prepared.source, *found.map, found.icp.state, prior, sigma_m, parts_.config.icp);
     iterations += found.icp.iterations;

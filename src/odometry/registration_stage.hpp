@@ -47,6 +47,7 @@ class RegistrationStage {
   Registration from(const MotionState& start, const MotionPrior& prior, int rounds) const;
   Registration to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m) const;
   Registration second_sweep(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
+  LocalMap of_first_sweep(const Vector6d& twist) const;
   void try_from(const MotionState& start, int rounds, Registration& found) const;
   void try_places_on_path(const MotionState& predicted, Registration& found) const;
   std::vector<MotionState> other_second_starts(const Registration& found) const;

@@ -4,6 +4,7 @@ namespace rilo {
 
 namespace {
 constexpr std::size_t kYoungSweeps = 5;  // a map of fewer explains less of a sweep than usual
+constexpr int kMostBeginnings = 10;      // a robot may start where the place shows no better second sweep
 constexpr double kShrunk = 1.0 / 3.0;    // of the last median range: doors and passing lorries take less at once
 }  // namespace
 
@@ -12,7 +13,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   Evidence evidence;
   evidence.source_points = prepared.source.size();
   evidence.score = registration.score;
-  evidence.second_sweep = before.map_sweeps == 1;
+  evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
   evidence.young_map = before.map_sweeps > 1 && before.map_sweeps < kYoungSweeps;
   evidence.usual_score = before.usual_score;
   evidence.was_lost = before.was_lost;

@@ -31,10 +31,17 @@ class SweepJudge {
   Judgement judge(const PreparedSweep& prepared, const Registration& registration, MotionVerdict motion,
                   const JudgedAgainst& before) const;
 
-  /// The sweep goes into the map, or begins one.
+  /// The sweep goes into the map.
   void accept(const PreparedSweep& prepared) {
     median_range_m_ = prepared.median_range_m;
     lost_in_a_row_ = 0;
+    begun_in_a_row_ = 0;
+  }
+  /// The sweep begins a map.
+  void begin(const PreparedSweep& prepared) {
+    median_range_m_ = prepared.median_range_m;
+    lost_in_a_row_ = 0;
+    ++begun_in_a_row_;
   }
   /// Counts a lost sweep. True when the map has not fitted for too long; one that is not `established` may itself be
   /// the wrong one and is given up at once.
@@ -46,6 +53,7 @@ class SweepJudge {
   HealthConfig config_;
   double median_range_m_ = 0;  // of the last sweep in the map
   int lost_in_a_row_ = 0;
+  int begun_in_a_row_ = 0;  // maps, without a second sweep
 };
 
 }  // namespace rilo

@@ -71,6 +71,15 @@ TEST(Judging, ASecondSweepMustConvergeFreely) {
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
 }
 
+TEST(Judging, ASecondSweepMustConstrainAllDirections) {
+  IcpResult icp = registered();
+  icp.degeneracy.relative_eigenvalues[0] = 0.5 * kHealth.degenerate_ratio;
+  Evidence e = evidence(0.8);
+  EXPECT_EQ(judge(icp, e, kHealth), OdometryStatus::kDegenerate);
+  e.second_sweep = true;
+  EXPECT_EQ(judge(icp, e, kHealth), OdometryStatus::kLost);
+}
+
 TEST(Judging, ImpossibleMotionAndACoveredSensorAreLost) {
   Evidence e = evidence(0.8);
   e.possible_motion = false;

@@ -19,8 +19,8 @@ class Motorway {
     points_.clear();
     noise_.seed(static_cast<unsigned>(index));
     const double x_m = kStepM * static_cast<double>(index);
-    for (double along = -40.0; along <= 40.0; along += 0.25) {
-      for (double across = -9.0; across <= 9.0; across += 0.5) {
+    for (double along = -40.0; along <= 40.0; along += 0.35) {
+      for (double across = -9.0; across <= 9.0; across += 0.75) {
         add({along, across, -1.7});
       }
       for (double z = -1.7; z <= 1.0; z += 0.3) {
@@ -28,13 +28,13 @@ class Motorway {
         add({along, 9.0, z});
       }
     }
-    for (const double lorry_m : {-15.0, 13.0}) {
-      board(lorry_m, lorry_m > 15.0 ? 3.5 : -3.5, 2.4, 0.12);
+    for (const double lorry_m : {-24.0, -15.0, 13.0, 24.0}) {
+      board(lorry_m, lorry_m > 0.0 ? 3.5 : -3.5, 2.4, 0.12);
     }
-    for (int i = -4; i < 24; ++i) {
-      const double panel_m = 11.0 * i + 3.0 * std::sin(1.7 * i) - x_m;
+    for (int i = -5; i < 26; ++i) {
+      const double panel_m = 8.0 * i + 2.0 * std::sin(1.7 * i) - x_m;
       if (std::abs(panel_m) < 40.0) {
-        board(panel_m, i % 2 == 0 ? 7.0 : -7.0, 1.6, 0.08);
+        board(panel_m, i % 2 == 0 ? 7.0 : -7.0, 1.8, 0.08);
       }
     }
     return points_;

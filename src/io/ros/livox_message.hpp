@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "rilo/io/point_cloud2.hpp"
 #include "rilo/io/cloud_reader.hpp"
+#include "rilo/io/point_cloud2.hpp"
 
 namespace rilo::detail {
 

@@ -6,8 +6,8 @@
 
 #include "io/io_test_util.hpp"
 #include "io/packets/velodyne.hpp"
-#include "rilo/io/point_cloud2.hpp"
 #include "io/real_files.hpp"
+#include "rilo/io/point_cloud2.hpp"
 #include "rilo/odometry/odometry.hpp"
 
 namespace rilo {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "rilo/io/point_cloud2.hpp"
 #include "rilo/cloud/sweep.hpp"
+#include "rilo/io/point_cloud2.hpp"
 
 namespace rilo::test {
 

@@ -38,7 +38,8 @@ TimedCloud every(const TimedCloud& cloud, std::size_t stride) {
 /// How well a registration fits, to be compared on the same points and within the same gate: what fits over how far it
 /// is off. The score sees small differences, the correspondences all points.
 double quality(const Registration& registration) {
-  return registration.score * static_cast<double>(registration.icp.inliers) / registration.icp.residual_rms_m;
+  const IcpResult& icp = registration.icp;
+  return icp.residual_rms_m > 0.0 ? registration.score * static_cast<double>(icp.inliers) / icp.residual_rms_m : 0.0;
 }
 
 /// Converged without points that had to be held.
@@ -66,7 +67,7 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
   } else if (parts_.initial_pose.suspicious(found.score, found.icp.residual_rms_m)) {
     try_places_on_path(predicted, found);
   }
-  if (parts_.tracker.lost()) {
+  if (parts_.tracker.lost() && parts_.map.sweeps() > 1) {
     // What was found within a wide gate has to hold within the usual one.
     const SE3 T_init = found.T_init;
     found = to_map(found.icp.state, parts_.tracker.prior(found.icp.state), parts_.usual_sigma_th_m);

@@ -48,7 +48,7 @@ if $sdist; then
   exit 0
 fi
 
-build_preset "$preset" --target rilo_cli
+build_preset "$preset" --target rilo_cli rilo_node
 rm -rf "$out/prefix"
 for component in dev library command; do
   cmake --install build/release --prefix "$out/prefix" --strip --component "$component" >/dev/null

@@ -85,9 +85,17 @@ void LocalMap::evict(const Eigen::Vector3d& centre) {
   }
 }
 
+std::size_t LocalMap::level_of(double voxel_m) const {
+  std::size_t level = finest_;
+  while (level + 1 < grids_.size() && grids_[level].voxel_m() < voxel_m) {
+    ++level;
+  }
+  return level;
+}
+
 bool LocalMap::find(const Eigen::Vector3d& p, MapPlane& plane) const {
   PlaneSpot spot;
-  locate({&p, 1}, Wanted::kPlanes, &spot);
+  locate({&p, 1}, Wanted::kPlanes, finest_, &spot);
   if (spot.grid == nullptr) {
     return false;
   }
@@ -96,7 +104,8 @@ bool LocalMap::find(const Eigen::Vector3d& p, MapPlane& plane) const {
 }
 
 // Level by level for all points, so that the memory for the next look-up of each is prefetched during the others.
-void LocalMap::locate(std::span<const Eigen::Vector3d> points, Wanted wanted, PlaneSpot* spots) const {
+void LocalMap::locate(std::span<const Eigen::Vector3d> points, Wanted wanted, std::size_t level,
+                      PlaneSpot* spots) const {
   std::array<VoxelIndex, kBatch> index{};
   std::array<VoxelIndex, kBatch> behind{};
   std::array<std::size_t, kBatch> open{};  // points without a plane so far
@@ -105,10 +114,10 @@ void LocalMap::locate(std::span<const Eigen::Vector3d> points, Wanted wanted, Pl
   for (std::size_t i = 0; i < left; ++i) {
     open[i] = i;
     spots[i] = PlaneSpot{};
-    index[i] = grids_[finest_].index_of(points[i]);
-    grids_[finest_].prefetch(index[i]);
+    index[i] = grids_[level].index_of(points[i]);
+    grids_[level].prefetch(index[i]);
   }
-  for (std::size_t level = finest_; level < grids_.size() && left > 0; ++level) {
+  for (; level < grids_.size() && left > 0; ++level) {
     const PlaneGrid& grid = grids_[level];
     const bool scatter = wanted == Wanted::kPlanesAndScatter && config_.scatter_voxel_m > 0.0 &&
                          grid.voxel_m() >= config_.scatter_voxel_m;

@@ -41,11 +41,14 @@ class LocalMap {
   /// What a look-up of many points looks for.
   enum class Wanted { kPlanes, kPlanesAndScatter };
 
+  /// The finest level of those in use whose voxels are no smaller than `voxel_m`; else the coarsest.
+  std::size_t level_of(double voxel_m) const;
+
   /// find() for many points: calls use(k, p, spot) with p = point_at(k) (odometry frame) for each k = first … last − 1,
   /// in order, that meets a surface element (or, if wanted, a voxel that is not a plane). Look-ups run in batches: one
-  /// by one they would wait for memory most of the time.
+  /// by one they would wait for memory most of the time. They begin at the finest level in use or at `level`.
   template <Wanted What = Wanted::kPlanes, typename PointAt, typename Use>
-  void visit(std::size_t first, std::size_t last, const PointAt& point_at, const Use& use) const {
+  void visit(std::size_t first, std::size_t last, const PointAt& point_at, const Use& use, std::size_t level = 0) const {
     std::array<Eigen::Vector3d, kBatch> points;
     std::array<PlaneSpot, kBatch> spots;
     for (std::size_t begin = first; begin < last; begin += kBatch) {
@@ -53,7 +56,7 @@ class LocalMap {
       for (std::size_t i = 0; i < n; ++i) {
         points[i] = point_at(begin + i);
       }
-      locate({points.data(), n}, What, spots.data());
+      locate({points.data(), n}, What, std::max(level, finest_), spots.data());
       for (std::size_t i = 0; i < n; ++i) {
         if (spots[i].grid != nullptr) {
           use(begin + i, points[i], spots[i]);
@@ -77,9 +80,9 @@ class LocalMap {
  private:
   static constexpr std::size_t kBatch = 16;  // look-ups in flight together: as many as hide the latency of memory
 
-  /// The finest plane at each of at most kBatch points, or, where there is none and it is wanted, the finest points
-  /// that are not a plane; an empty spot where there is neither.
-  void locate(std::span<const Eigen::Vector3d> points, Wanted wanted, PlaneSpot* spots) const;
+  /// The finest plane from `level` on at each of at most kBatch points, or, where there is none and it is wanted, the
+  /// finest points that are not a plane; an empty spot where there is neither.
+  void locate(std::span<const Eigen::Vector3d> points, Wanted wanted, std::size_t level, PlaneSpot* spots) const;
 
   LocalMapConfig config_;
   std::vector<PlaneGrid> grids_;  // finest first

@@ -14,6 +14,7 @@ constexpr double kLearningRate = 0.2;           // of the usual score: about fiv
 constexpr double kDoubtfulLearningRate = 0.02;  // of a score below the alarm
 // The search looks at fewer points and more tolerantly than the score: it only has to find the basin of convergence.
 constexpr std::size_t kSearchPoints = 300;
+constexpr std::size_t kSinglePoints = 5000;  // for candidates that differ by few of them
 constexpr double kSearchSigmaM = 0.3;
 constexpr double kSearchShiftStepM = 0.5;  // within the reach of the coarse stage
 constexpr double kSearchYawStepRad = 0.1;
@@ -92,7 +93,8 @@ InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bo
   Search found;
   found.best = {predicted.T_odom_lidar, -1.0};
   try_from(situation, predicted.T_odom_lidar, found);
-  if (doubt && !is_consistent(found.best.score)) {
+  const bool moves = !predicted.T_odom_lidar.isApprox(situation.previous);
+  if (doubt && moves && !is_consistent(found.best.score)) {
     try_from(situation, situation.previous, found);  // no motion
   }
   if (doubt && config_.restarts && !found.cut && !is_consistent(found.best.score)) {
@@ -132,7 +134,7 @@ double InitialPoseStage::candidate_score(const Situation& situation, const SE3& 
     return score(situation.source, {T, twist}, situation.map);
   }
   deskew(situation.source, twist, compensated_);
-  return map_score(compensated_, situation.map, T, config_.score_sigma_m);
+  return map_score(evenly_picked(compensated_, kSinglePoints), situation.map, T, config_.score_sigma_m);
 }
 
 bool InitialPoseStage::is_consistent(double score) const {
@@ -140,7 +142,7 @@ bool InitialPoseStage::is_consistent(double score) const {
 }
 
 bool InitialPoseStage::suspicious(double score, double residual_rms_m) const {
-  return usual_score_ > 0.0 && score * usual_rms_m_ < kSuspicious * usual_score_ * residual_rms_m;
+  return usual_rms_m_ > 0.0 && score * usual_rms_m_ < kSuspicious * usual_score_ * residual_rms_m;
 }
 
 std::vector<SE3> InitialPoseStage::places_on_path(const TimedCloud& source, const MotionState& predicted, double dt_s,
@@ -186,11 +188,13 @@ double InitialPoseStage::score(const TimedCloud& source, const MotionState& stat
   return map_score(points, map, state.T_odom_lidar, config_.score_sigma_m);
 }
 
-void InitialPoseStage::learn(double score, double residual_rms_m) {
+void InitialPoseStage::learn(double score, std::optional<double> residual_rms_m) {
   const double rate = is_consistent(score) ? kLearningRate : kDoubtfulLearningRate;
-  const bool first = !(usual_score_ > 0.0);
-  usual_score_ = first ? score : usual_score_ + rate * (score - usual_score_);
-  usual_rms_m_ = first ? residual_rms_m : usual_rms_m_ + rate * (residual_rms_m - usual_rms_m_);
+  const auto follow = [rate](double& usual, double value) { usual = usual > 0.0 ? usual + rate * (value - usual) : value; };
+  follow(usual_score_, score);
+  if (residual_rms_m) {
+    follow(usual_rms_m_, *residual_rms_m);
+  }
 }
 
 void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twist) {

@@ -77,8 +77,9 @@ class InitialPoseStage {
                                   const LocalMap& map);
 
   /// Updates the usual score: slowly with a score that raises the alarm. A pose that slides away slowly
-  /// must not take the reference along, and a place with less structure must become usual in time.
-  void learn(double score, double residual_rms_m);
+  /// must not take the reference along, and a place with less structure must become usual in time. Residuals within the
+  /// wide gate of a map's first sweeps are not comparable with later ones: none.
+  void learn(double score, std::optional<double> residual_rms_m);
 
   /// A map begins with a sweep: its cloud becomes the target, its score the least that is expected.
   void begin(const TimedCloud& source, const MotionState& state, const LocalMap& map);

@@ -177,7 +177,7 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   calibration_.apply_to(preprocessor_);
 
   judge_.accept(prepared);
-  initial_pose_.learn(result.stats.map_score, icp.residual_rms_m);
+  initial_pose_.learn(result.stats.map_score, established() ? std::optional(icp.residual_rms_m) : std::nullopt);
   initial_pose_.keep_target(prepared.source, tracker_.state().twist);
   map_.insert(prepared.map_cloud, tracker_.state(), calibration_.pose_by_elevation());
 }

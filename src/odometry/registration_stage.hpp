@@ -47,9 +47,15 @@ class RegistrationStage {
   Registration from(const MotionState& start, const MotionPrior& prior, int rounds) const;
   Registration to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m) const;
   Registration second_sweep(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
-  LocalMap of_first_sweep(const Vector6d& twist) const;
+  std::optional<LocalMap> of_first_sweep(const Vector6d& twist) const;
   void try_from(const MotionState& start, int rounds, Registration& found) const;
   void try_places_on_path(const MotionState& predicted, Registration& found) const;
+  /// Where a sample of the second sweep comes to rest from a start, and how well it fits there.
+  struct SampleFit {
+    SE3 T_odom_lidar = SE3::Identity();
+    double quality = 0;
+  };
+  SampleFit fit_of(const TimedCloud& sample, const MotionState& start) const;
   std::vector<MotionState> other_second_starts(const Registration& found) const;
 
   Parts parts_;

@@ -18,10 +18,11 @@ struct Candidate {
 
 // A few points rule out most of the nodes; the others are scored again with more points, and so on.
 constexpr std::size_t kFirstPoints = 75;
-constexpr std::size_t kMostPoints = 5000;
+constexpr std::size_t kMostPoints = 1200;
 constexpr std::size_t kMorePoints = 4;       // times as many from round to round ...
 constexpr std::size_t kSurvivors = 8;        // ... for an eighth of the nodes, ...
 constexpr std::size_t kLeastSurvivors = 50;  // ... but no fewer
+constexpr double kVoxelSigmas = 2.0;  // smaller voxels than this tell a search no more
 
 std::vector<Candidate> grid_nodes(const PoseGrid& grid) {
   const int shifts = static_cast<int>(std::lround(grid.max_shift_m / grid.shift_step_m));
@@ -56,18 +57,19 @@ bool near_one_another(const Candidate& a, const Candidate& b) {
 }  // namespace
 
 double map_score(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& T_odom_lidar,
-                 double sigma_m) {
+                 double sigma_m, std::size_t level) {
   if (points.empty()) {
     return 0.0;
   }
   const double scale = -0.5 / (sigma_m * sigma_m);
   double sum = 0.0;
   const auto point_at = [&](std::size_t k) -> Eigen::Vector3d { return T_odom_lidar * points[k].cast<double>(); };
-  map.visit(0, points.size(), point_at, [&](std::size_t, const Eigen::Vector3d& world, const PlaneSpot& spot) {
+  const auto add = [&](std::size_t, const Eigen::Vector3d& world, const PlaneSpot& spot) {
     const MapPlane plane = spot.grid->plane_at(spot);
     const double e = plane.normal.dot(world - plane.point);
     sum += std::exp(scale * e * e);
-  });
+  };
+  map.visit(0, points.size(), point_at, add, level);
   return sum / static_cast<double>(points.size());
 }
 
@@ -88,8 +90,9 @@ namespace {
 /// Scores the nodes and sorts them, best first; among equal scores the smaller motion wins.
 void score_nodes(std::vector<Candidate>& nodes, const std::vector<Eigen::Vector3f>& points, const LocalMap& map,
                  const SE3& centre, const PoseGrid& grid, double sigma_m) {
+  const std::size_t level = map.level_of(kVoxelSigmas * sigma_m);
   for_each_index(nodes.size(), [&](std::size_t i) {
-    nodes[i].score = map_score(points, map, pose_of(nodes[i], centre, grid), sigma_m);
+    nodes[i].score = map_score(points, map, pose_of(nodes[i], centre, grid), sigma_m, level);
   });
   const auto distance2 = [](const Candidate& c) { return c.yaw * c.yaw + c.x * c.x + c.y * c.y; };
   std::stable_sort(nodes.begin(), nodes.end(), [&](const Candidate& a, const Candidate& b) {

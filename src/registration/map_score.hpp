@@ -12,9 +12,10 @@
 namespace rilo {
 
 /// Mean over `points` (sensor frame) of exp(−e²/2σ²), e the distance to the map's plane at the point's place under
-/// `T_odom_lidar`; a point without a plane counts 0. 0 … 1; 0 when there are no points.
+/// `T_odom_lidar`, in a voxel of `level` or a coarser one; a point without a plane counts 0. 0 … 1; 0 when there are no
+/// points.
 double map_score(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& T_odom_lidar,
-                 double sigma_m);
+                 double sigma_m, std::size_t level = 0);
 
 /// At most `count` points of `points`, evenly spread over their order.
 std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& points, std::size_t count);

@@ -17,8 +17,8 @@ struct Candidate {
 };
 
 // A few points rule out most of the nodes; the others are scored again with more points, and so on.
-constexpr std::size_t kFirstPoints = 75;
-constexpr std::size_t kMostPoints = 1200;
+constexpr std::size_t kFirstPoints = 40;
+constexpr std::size_t kMostPoints = 640;
 constexpr std::size_t kMorePoints = 4;       // times as many from round to round ...
 constexpr std::size_t kSurvivors = 8;        // ... for an eighth of the nodes, ...
 constexpr std::size_t kLeastSurvivors = 50;  // ... but no fewer

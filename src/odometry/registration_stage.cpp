@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -126,7 +125,7 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
   const TimedCloud sample = every(parts_.prepared.source, kSecondStride);
   const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
   const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
-  std::vector<MotionState> places = {found.icp.state};
+  std::vector<MotionState> places;
   for (int k = -kSecondSteps; k <= kSecondSteps; ++k) {
     SE3 place = parts_.tracker.trusted().T_odom_lidar;
     place.translation() += k * kSecondStepM * weakest;
@@ -134,11 +133,13 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
   }
   std::vector<SampleFit> fits(places.size());
   for_each_index(places.size(), [&](std::size_t i) { fits[i] = fit_of(sample, places[i]); });
-  const double least = settled(found) ? kWorthTrying * fits.front().quality : 0.0;
-  std::stable_sort(fits.begin() + 1, fits.end(),
+  const double least =
+      settled(found) ? kWorthTrying * fit_of(sample, found.icp.state, found.map ? *found.map : parts_.map.map()).quality
+                     : 0.0;
+  std::stable_sort(fits.begin(), fits.end(),
                    [](const SampleFit& a, const SampleFit& b) { return a.quality > b.quality; });
   std::vector<MotionState> starts = {found.icp.state};
-  for (const SampleFit& fit : std::span(fits).subspan(1)) {
+  for (const SampleFit& fit : fits) {
     const bool elsewhere = std::all_of(starts.begin(), starts.end(), [&](const MotionState& start) {
       return (start.T_odom_lidar.translation() - fit.T_odom_lidar.translation()).norm() > 0.5 * kSecondStepM;
     });
@@ -152,7 +153,11 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
 
 RegistrationStage::SampleFit RegistrationStage::fit_of(const TimedCloud& sample, const MotionState& start) const {
   const std::optional<LocalMap> compensated = of_first_sweep(start.twist);
-  const LocalMap& map = compensated ? *compensated : parts_.map.map();
+  return fit_of(sample, start, compensated ? *compensated : parts_.map.map());
+}
+
+RegistrationStage::SampleFit RegistrationStage::fit_of(const TimedCloud& sample, const MotionState& start,
+                                                       const LocalMap& map) const {
   Registration fit;
   fit.icp = adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, parts_.config.icp);
   std::vector<Eigen::Vector3f> points;

@@ -56,6 +56,7 @@ class RegistrationStage {
     double quality = 0;
   };
   SampleFit fit_of(const TimedCloud& sample, const MotionState& start) const;
+  SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map) const;
   std::vector<MotionState> other_second_starts(const Registration& found) const;
 
   Parts parts_;

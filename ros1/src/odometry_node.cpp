@@ -8,7 +8,7 @@
 #include <tf2_ros/transform_listener.h>
 #include <utility>
 
-#include "rilo/node/message_fields.hpp"
+#include "rilo/node/node_messages.hpp"
 
 namespace rilo::ros1 {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "parameters.hpp"
-#include "rilo/node/message_fields.hpp"
+#include "rilo/node/node_messages.hpp"
 
 namespace rilo::ros2 {
 namespace {

@@ -10,10 +10,10 @@
 #include <thread>
 #include <utility>
 
+#include "node/node_health.hpp"
 #include "node/odometry_session.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/map_writer.hpp"
-#include "rilo/node/node_health.hpp"
 
 namespace rilo {
 namespace {

@@ -1,4 +1,4 @@
-#include "rilo/node/node_health.hpp"
+#include "node/node_health.hpp"
 
 #include <algorithm>
 #include <utility>

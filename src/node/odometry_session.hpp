@@ -7,12 +7,12 @@
 
 #include <Eigen/Core>
 
+#include "node/node_health.hpp"
 #include "rilo/cloud/thinned_map.hpp"
 #include "rilo/geometry/trajectory.hpp"
 #include "rilo/io/live_queue.hpp"
 #include "rilo/io/scan_source.hpp"
-#include "rilo/node/node_health.hpp"
-#include "rilo/node/node_options.hpp"
+#include "rilo/node/node_parameters.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/odometry/sweep_result.hpp"
 

@@ -12,7 +12,6 @@
 
 #include "rilo/io/live_queue.hpp"
 #include "rilo/node/node_messages.hpp"
-#include "rilo/node/node_options.hpp"
 #include "rilo/node/node_parameters.hpp"
 
 namespace rilo {

@@ -1,4 +1,4 @@
-// Everything that the node can be told, from its private parameters.
+// The options of the node, from its private parameters.
 #pragma once
 
 #include "rilo/node/node_parameters.hpp"

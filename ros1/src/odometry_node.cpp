@@ -63,7 +63,7 @@ OdometryNode::~OdometryNode() { odometry_.stop(); }
 
 void OdometryNode::advertise() {
   odometry_publisher_ = node_.advertise<nav_msgs::Odometry>("odometry", kQueueOfPublishers);
-  // Who comes late gets the present ones.
+  // Late subscribers get the present ones.
   path_publisher_ =
       node_.advertise<nav_msgs::Path>("path", 1, [this](const ros::SingleSubscriberPublisher& subscriber) {
         subscriber.publish(to_ros<nav_msgs::Path>(odometry_.path()));

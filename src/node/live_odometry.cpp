@@ -133,7 +133,7 @@ class LiveOdometry::Impl {
       if (base_frame_.empty() && !find_extrinsic(figures.lidar_frame)) return false;
       process(figures.clock_jumps);
     } catch (const IoError& error) {
-      if (bad_message_.due()) output_.warn(std::string("left out: ") + error.what());
+      if (bad_message_.due()) output_.warn(std::string("dropped: ") + error.what());
       health.note_bad_message(error.what());
     }
     return true;

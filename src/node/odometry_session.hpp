@@ -38,7 +38,7 @@ class OdometrySession {
   /// Time between the last two poses, s; 0 without two.
   double last_step_s() const;
 
-  /// Starts anew, with another configuration when one is given.
+  /// Restarts, with another configuration when one is given.
   void reset(const std::optional<OdometryConfig>& config = std::nullopt);
 
   /// The base was there at the last sweep (before the first: is there at the first).

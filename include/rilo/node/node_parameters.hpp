@@ -37,11 +37,11 @@ struct NodeOptions {
 /// As both ROS know them.
 using ParameterValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
-/// When a new value of a parameter shows in a node that runs.
+/// When a new value of a parameter takes effect in a running node.
 enum class ParameterChange : std::uint8_t {
-  kNever,    ///< it is for the start alone
+  kNever,    ///< only at the start
   kAtOnce,   ///< with the next sweep
-  kAtReset,  ///< when the odometry starts anew
+  kAtReset,  ///< with the next reset
 };
 
 /// One parameter, bound to a member of NodeOptions.

@@ -3,6 +3,7 @@
 
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
+#include "rilo/io/live_queue.hpp"
 #include "rilo/io/scan_source.hpp"
 
 namespace rilo {

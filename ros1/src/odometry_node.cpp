@@ -129,7 +129,7 @@ void OdometryNode::fail(const std::string& why) {
 bool OdometryNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   odometry_.reset();
   response.success = 1U;
-  response.message = "the next sweep starts anew at the identity";
+  response.message = "the next sweep is the identity of a new map";
   return true;
 }
 

@@ -164,7 +164,7 @@ class LiveOdometry::Impl {
     const std::lock_guard lock(mutex_);
     if (clock_jumps > jumps_seen_) {
       jumps_seen_ = clock_jumps;
-      output_.warn("the stamps went back in time (a bag played again, a clock that was set): the odometry starts anew");
+      output_.warn("the stamps went back in time (a bag played again, a clock that was set): the odometry restarts");
       reset_held();
     }
     const SweepResult result = session_.register_sweep();

@@ -1,6 +1,6 @@
 // The text files: poses, stamps, calibration.
 #include "harness.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const rilo::fuzz::MemoryFile file(rilo::fuzz::bytes_of(data, size));

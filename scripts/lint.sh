@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Format, clang-tidy (warnings are errors), links of the documents, and paths of somebody's machine.
+# Format, clang-tidy (warnings are errors), links of the documents, and paths of a developer's machine.
 # With files as arguments: clang-format and clang-tidy on these alone.
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

@@ -9,7 +9,7 @@ WIDTH, HEIGHT = 720, 400
 LEFT, RIGHT, TOP, BOTTOM = 64, 24, 44, 52
 COLOURS = ("#1f6fb4", "#d1641c", "#3a8f4d")
 AXES = {
-    "points": "points a sweep",
+    "points": "points per sweep",
     "map": "map radius, m",
     "threads": "threads",
     "speed": "speed, m/s",

@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "command.hpp"
-#include "rilo/session/run_error.hpp"
+#include "rilo/session/session.hpp"
 
 namespace rilo::cli {
 

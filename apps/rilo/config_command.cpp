@@ -48,7 +48,7 @@ void add_config_command(CLI::App& app, int& exit_code) {
   dump->excludes(check);
   command->add_option("--config", flags->file, "start from this file")->check(path_given())->excludes(check);
   command->add_option("--set", flags->settings, "key=value, repeatable")->allow_extra_args(false)->excludes(check);
-  command->add_flag("--markdown", flags->markdown, "with --dump: as tables for the documentation")->needs(dump);
+  command->add_flag("--markdown", flags->markdown, "with --dump: the keys for users as a table")->needs(dump);
   command->callback([flags, &exit_code] {
     if (!flags->dump && flags->check.empty()) {
       throw RunError(RunErrorKind::kUsage, "config: give --dump or --check FILE");

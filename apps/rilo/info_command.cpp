@@ -17,8 +17,8 @@
 #include "io/ground_truth.hpp"
 #include "results/metrics_json.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/pose_writer.hpp"
 #include "rilo/io/scan_source.hpp"
+#include "rilo/io/trajectory_files.hpp"
 #include "source_flags.hpp"
 
 namespace rilo::cli {

@@ -23,7 +23,7 @@
 #include "results/run_summary.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/session/map_observer.hpp"
+#include "rilo/session/session_observer.hpp"
 #include "run_flags.hpp"
 #include "source_flags.hpp"
 #include "view_flags.hpp"

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "rilo/io/pose_writer.hpp"
+#include "rilo/io/trajectory_files.hpp"
 #include "rilo/session/session.hpp"
 
 int main(int argc, char** argv) {

@@ -3,8 +3,8 @@
 #include <exception>
 
 #include "rilo/io/map_writer.hpp"
-#include "rilo/session/map_observer.hpp"
 #include "rilo/session/session.hpp"
+#include "rilo/session/session_observer.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 3) {

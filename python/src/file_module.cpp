@@ -5,8 +5,7 @@
 #include "arrays.hpp"
 #include "modules.hpp"
 #include "rilo/io/map_writer.hpp"
-#include "rilo/io/pose_reader.hpp"
-#include "rilo/io/pose_writer.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::python {
 

@@ -9,8 +9,8 @@
 #include "modules.hpp"
 #include "notebook.hpp"
 #include "rilo/config/config_file.hpp"
-#include "rilo/session/map_observer.hpp"
 #include "rilo/session/session.hpp"
+#include "rilo/session/session_observer.hpp"
 #include "settings.hpp"
 #include "sources.hpp"
 

@@ -1,7 +1,7 @@
-// Everything that the node can be told, from its private parameters.
+// The options of the node, from its private parameters.
 #pragma once
 
-#include "rilo/node/node_options.hpp"
+#include "rilo/node/node_parameters.hpp"
 
 namespace ros {
 class NodeHandle;

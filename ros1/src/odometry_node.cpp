@@ -8,7 +8,7 @@
 #include <tf2_ros/transform_listener.h>
 #include <utility>
 
-#include "rilo/node/message_fields.hpp"
+#include "rilo/node/node_messages.hpp"
 
 namespace rilo::ros1 {
 namespace {
@@ -63,7 +63,7 @@ OdometryNode::~OdometryNode() { odometry_.stop(); }
 
 void OdometryNode::advertise() {
   odometry_publisher_ = node_.advertise<nav_msgs::Odometry>("odometry", kQueueOfPublishers);
-  // Who comes late gets the present ones.
+  // Late subscribers get the present ones.
   path_publisher_ =
       node_.advertise<nav_msgs::Path>("path", 1, [this](const ros::SingleSubscriberPublisher& subscriber) {
         subscriber.publish(to_ros<nav_msgs::Path>(odometry_.path()));
@@ -129,7 +129,7 @@ void OdometryNode::fail(const std::string& why) {
 bool OdometryNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   odometry_.reset();
   response.success = 1U;
-  response.message = "the next sweep starts anew at the identity";
+  response.message = "the next sweep is the identity of a new map";
   return true;
 }
 

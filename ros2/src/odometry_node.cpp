@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "parameters.hpp"
-#include "rilo/node/message_fields.hpp"
+#include "rilo/node/node_messages.hpp"
 
 namespace rilo::ros2 {
 namespace {
@@ -116,7 +116,7 @@ void OdometryNode::advertise() {
         odometry_.reset();
         publish_present();
         response->success = true;
-        response->message = "the next sweep starts anew at the identity";
+        response->message = "the next sweep is the identity of a new map";
       }));
   services_.push_back(create_service<rilo_ros2::srv::SetPose>(
       "~/set_pose", [this](rilo_ros2::srv::SetPose::Request::SharedPtr request,
@@ -204,7 +204,7 @@ void OdometryNode::publish_present() {
   publish(odometry_.local_map());
 }
 
-// Whoever has just come gets the present ones, not those of when somebody last listened.
+// Late subscribers get the present ones, not those of the last subscription.
 void OdometryNode::serve_newcomers() {
   const std::size_t path_listeners = path_publisher_->get_subscription_count();
   const std::size_t map_listeners = map_publisher_->get_subscription_count();

@@ -10,7 +10,7 @@
 #include "console/text.hpp"
 #include "results/saved_run.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/session/run_error.hpp"
+#include "rilo/session/session.hpp"
 
 namespace rilo {
 

@@ -8,7 +8,7 @@
 
 #include "bench/report_sequence.hpp"
 #include "console/text.hpp"
-#include "rilo/session/run_error.hpp"
+#include "rilo/session/session.hpp"
 
 namespace rilo {
 

@@ -10,7 +10,7 @@
 #include "results/pose_files.hpp"
 #include "results/run_report.hpp"
 #include "results/run_truth.hpp"
-#include "rilo/evaluation/alignment.hpp"
+#include "rilo/evaluation/pose_error.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {

@@ -13,7 +13,7 @@
 #include "cloud/beam_angles.hpp"
 #include "cloud/beam_sample.hpp"
 #include "registration/adaptive_icp.hpp"
-#include "rilo/calibration/calibration_config.hpp"
+#include "rilo/stage_config.hpp"
 
 namespace rilo {
 

@@ -10,7 +10,7 @@
 #include <cstddef>
 
 #include "registration/adaptive_icp.hpp"
-#include "rilo/calibration/calibration_config.hpp"
+#include "rilo/stage_config.hpp"
 
 namespace rilo {
 

@@ -9,8 +9,8 @@
 #include "cloud/beam_sample.hpp"
 #include "cloud/timed_cloud.hpp"
 #include "cloud/voxel_mean.hpp"
-#include "rilo/cloud/preprocess_config.hpp"
 #include "rilo/cloud/sweep.hpp"
+#include "rilo/stage_config.hpp"
 
 namespace rilo {
 

@@ -266,7 +266,7 @@ BenchPlan parse_bench_plan(std::string_view yaml, const fs::path& file, const fs
   try {
     return PlanReader(file, root).read(detail::parse_yaml(yaml, file.string(), kPlanHint));
   } catch (const YAML::Exception& error) {  // of nodes that yaml-cpp cannot make sense of
-    throw ConfigError({file, position_of(error.mark), "this is no YAML (" + error.msg + ")", "a plan", kPlanHint});
+    throw ConfigError({file, position_of(error.mark), "not valid YAML (" + error.msg + ")", "a plan", kPlanHint});
   }
 }
 

@@ -15,7 +15,7 @@
 
 namespace rilo {
 
-/// Poses that somebody else computed for a sequence.
+/// Poses that another program computed for a sequence.
 struct BenchPeer {
   std::string name;
   std::filesystem::path poses;
@@ -28,7 +28,7 @@ struct BenchSequence {
   std::filesystem::path ground_truth;  ///< pose file; empty: what lies beside the data
   bool camera_frame = false;           ///< given pose files are in the camera frame (`Tr` of calib.txt)
   double max_gap_s = 0.02;             ///< given pose files with stamps: largest distance to a sweep's pose
-  std::size_t start = 0;               ///< sweeps left out
+  std::size_t start = 0;               ///< sweeps skipped
   std::size_t count = 0;               ///< 0: all
   std::optional<PointTimes> point_times;
   std::optional<double> elevation_correction_deg;

@@ -55,7 +55,7 @@ std::string dump_config(const OdometryConfig& config) {
   text += fmt::format(
       "\n# For experiments with the method: no sensor and no robot needs another value. In parentheses, where it "
       "comes\n"
-      "# from: a section of the paper (III-A ...) or a row of the experiments in docs/benchmarks.md.\n{}:\n",
+      "# from: a section of the paper (III-A ...) or a row of docs/experiments.md.\n{}:\n",
       kExpertSection);
   return text + dump_tier(keys, true, "  ");
 }
@@ -64,20 +64,11 @@ std::string config_markdown(const OdometryConfig& config) {
   OdometryConfig copy = config;
   const ConfigKeys keys = odometry_keys(copy);
   std::string text = "| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n";
-  const auto row = [](const ConfigKey& key) {
-    return fmt::format("| `{}` | {} | {} | {} | {} |", key.name(), key.value(), key.unit(), key.allowed(),
-                       key.meaning());
-  };
   for (const ConfigSection& section : keys.sections()) {
-    for (const ConfigKey& key : keys_of_tier(section, false)) text += row(key) + "\n";
-  }
-  text += "\n### Expert keys\n";
-  for (const ConfigSection& section : keys.sections()) {
-    const std::vector<ConfigKey> expert = keys_of_tier(section, true);
-    if (expert.empty()) continue;
-    text += fmt::format("\n#### {}\n\n{}.\n\n", section.name, section.meaning);
-    text += "| key | default | unit | allowed | meaning | source of the value |\n|---|---|---|---|---|---|\n";
-    for (const ConfigKey& key : expert) text += fmt::format("{} {} |\n", row(key), key.source());
+    for (const ConfigKey& key : keys_of_tier(section, false)) {
+      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name(), key.value(), key.unit(), key.allowed(),
+                          key.meaning());
+    }
   }
   return text;
 }

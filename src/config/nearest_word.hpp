@@ -1,4 +1,4 @@
-// Which known word somebody meant.
+// The known word nearest to a given one.
 #pragma once
 
 #include <cstddef>

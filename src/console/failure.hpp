@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "rilo/session/run_error.hpp"
+#include "rilo/session/session.hpp"
 
 namespace rilo {
 

@@ -5,7 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "rilo/session/run_error.hpp"
+#include "rilo/session/session.hpp"
 
 namespace rilo {
 

@@ -1,11 +1,11 @@
-#include "rilo/evaluation/alignment.hpp"
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
+
+#include "rilo/evaluation/pose_error.hpp"
 
 namespace rilo {
 

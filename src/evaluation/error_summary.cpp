@@ -1,7 +1,7 @@
-#include "rilo/evaluation/error_summary.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "rilo/evaluation/pose_error.hpp"
 
 namespace rilo {
 

@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 
 #include "geometry/degrees.hpp"
-#include "rilo/evaluation/alignment.hpp"
+#include "rilo/evaluation/pose_error.hpp"
 
 namespace rilo {
 

@@ -7,7 +7,7 @@
 #include "io/kitti_oxts.hpp"
 #include "io/scan_listing.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace fs = std::filesystem;

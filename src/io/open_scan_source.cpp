@@ -15,7 +15,6 @@
 #include "io/stamp_order.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/live_source.hpp"
 #include "rilo/io/scan_source.hpp"
 
 namespace rilo {

@@ -1,5 +1,3 @@
-#include "rilo/io/pose_reader.hpp"
-
 #include <array>
 #include <cmath>
 #include <string>
@@ -8,7 +6,7 @@
 #include "io/file_bytes.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/pose_writer.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

@@ -1,11 +1,10 @@
-#include "rilo/io/pose_writer.hpp"
-
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "io/atomic_file.hpp"
 #include "io/unit_quaternion.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 

@@ -13,7 +13,7 @@
 #include "io/stamp_list.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::detail {
 namespace fs = std::filesystem;

@@ -9,7 +9,7 @@
 #include "io/file_bytes.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/pose_writer.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::detail {
 namespace {

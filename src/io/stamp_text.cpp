@@ -8,7 +8,7 @@
 
 #include "io/stamp_difference.hpp"
 #include "io/text.hpp"
-#include "rilo/io/pose_writer.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "map/plane_grid.hpp"
 #include "rilo/geometry/se3.hpp"
-#include "rilo/map/local_map_config.hpp"
+#include "rilo/stage_config.hpp"
 
 namespace rilo {
 

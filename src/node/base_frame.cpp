@@ -1,4 +1,4 @@
-#include "rilo/node/base_frame.hpp"
+#include "node/base_frame.hpp"
 
 namespace rilo {
 

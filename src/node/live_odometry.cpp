@@ -10,10 +10,10 @@
 #include <thread>
 #include <utility>
 
+#include "node/node_health.hpp"
 #include "node/odometry_session.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/map_writer.hpp"
-#include "rilo/node/node_health.hpp"
 
 namespace rilo {
 namespace {
@@ -133,7 +133,7 @@ class LiveOdometry::Impl {
       if (base_frame_.empty() && !find_extrinsic(figures.lidar_frame)) return false;
       process(figures.clock_jumps);
     } catch (const IoError& error) {
-      if (bad_message_.due()) output_.warn(std::string("left out: ") + error.what());
+      if (bad_message_.due()) output_.warn(std::string("dropped: ") + error.what());
       health.note_bad_message(error.what());
     }
     return true;
@@ -164,7 +164,7 @@ class LiveOdometry::Impl {
     const std::lock_guard lock(mutex_);
     if (clock_jumps > jumps_seen_) {
       jumps_seen_ = clock_jumps;
-      output_.warn("the stamps went back in time (a bag played again, a clock that was set): the odometry starts anew");
+      output_.warn("the stamps went back in time (a bag played again, a clock that was set): the odometry restarts");
       reset_held();
     }
     const SweepResult result = session_.register_sweep();

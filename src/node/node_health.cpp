@@ -1,4 +1,4 @@
-#include "rilo/node/node_health.hpp"
+#include "node/node_health.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -23,7 +23,7 @@ NodeLevel level_of(OdometryStatus status) {
   }
 }
 
-// The worst counts; all that is wrong is told.
+// The worst counts; all that is wrong is listed.
 void merge(NodeLevel level, const std::string& message, StatusMessage& status) {
   const bool was_well = status.level == NodeLevel::kOk;
   status.message = was_well ? message : status.message + "; " + message;
@@ -130,8 +130,8 @@ void NodeHealth::add_counts(const LiveQueueCounts& queue, StatusMessage& status)
   add_rounded("ms largest", most_ms_);
   add("gaps of the stamps", source_.gaps);
   add("sweeps missing in the gaps", source_.missing);
-  add("duplicates left out", source_.duplicates);
-  add("out of order, left out", source_.out_of_order);
+  add("duplicates dropped", source_.duplicates);
+  add("out of order, dropped", source_.out_of_order);
   add("jumps back in time", source_.clock_jumps);
   add("point times", source_.point_times);
   add("lidar frame", source_.lidar_frame);

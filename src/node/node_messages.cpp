@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "io/ros/message_stamp.hpp"
+#include "io/ros/ros_covariance.hpp"
 #include "io/unit_quaternion.hpp"
-#include "rilo/io/ros_covariance.hpp"
 
 namespace rilo {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "rilo/io/live_source.hpp"
+#include "node/base_frame.hpp"
 #include "rilo/io/point_times.hpp"
-#include "rilo/node/base_frame.hpp"
+#include "rilo/io/scan_source.hpp"
 #include "rilo/node/node_parameters.hpp"
 #include "session/steady_clock.hpp"
 

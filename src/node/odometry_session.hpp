@@ -7,12 +7,12 @@
 
 #include <Eigen/Core>
 
+#include "node/node_health.hpp"
 #include "rilo/cloud/thinned_map.hpp"
 #include "rilo/geometry/trajectory.hpp"
 #include "rilo/io/live_queue.hpp"
 #include "rilo/io/scan_source.hpp"
-#include "rilo/node/node_health.hpp"
-#include "rilo/node/node_options.hpp"
+#include "rilo/node/node_parameters.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/odometry/sweep_result.hpp"
 
@@ -38,7 +38,7 @@ class OdometrySession {
   /// Time between the last two poses, s; 0 without two.
   double last_step_s() const;
 
-  /// Starts anew, with another configuration when one is given.
+  /// Restarts, with another configuration when one is given.
   void reset(const std::optional<OdometryConfig>& config = std::nullopt);
 
   /// The base was there at the last sweep (before the first: is there at the first).

@@ -1,7 +1,7 @@
 // The table of all keys: one entry each. A key that is added here is checked, loaded, dumped and documented;
 // `rilo config --dump > config/default.yaml` and docs/configuration.md renew the files (the tests compare them).
 // An entry with a source is an expert key: (III-A …) are sections of the paper, "experiment" names a row of
-// docs/benchmarks.md#experiments, "not tuned" is a plausible value that no experiment has moved.
+// docs/experiments.md, "not tuned" is a plausible value that no experiment has moved.
 #include "rilo/odometry/odometry_keys.hpp"
 
 namespace rilo {

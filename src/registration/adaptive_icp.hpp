@@ -11,7 +11,7 @@
 #include "registration/degeneracy.hpp"
 #include "registration/normal_equations.hpp"
 #include "rilo/geometry/se3.hpp"
-#include "rilo/registration/registration_config.hpp"
+#include "rilo/stage_config.hpp"
 
 namespace rilo {
 

@@ -78,8 +78,8 @@ CoarseResult coarse_registration(const DistributionCloud& source, const Distribu
   result.T_target_source = initial;
   std::vector<std::uint32_t> matches;
   for (result.iterations = 1; result.iterations <= config.max_iterations; ++result.iterations) {
-    // The weights of far pairs vanish at once when the covariances are those of surfaces alone; a noise that shrinks
-    // from iteration to iteration lets them pull first and then fall silent.
+    // With the covariances of surfaces alone, the weights of far pairs vanish at once. Annealing: a noise that shrinks
+    // from iteration to iteration lets far pairs contribute in the first iterations only.
     const double share = std::min(1.0, 2.0 * (result.iterations - 1) / std::max(1.0, config.max_iterations - 1.0));
     const double noise = config.noise_first_m * std::pow(config.noise_last_m / config.noise_first_m, share);
     const CoarseSums sums = linearise(source, target, result.T_target_source, noise, config, matches);

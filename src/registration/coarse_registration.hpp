@@ -7,7 +7,7 @@
 
 #include "cloud/point_grid.hpp"
 #include "rilo/geometry/se3.hpp"
-#include "rilo/registration/registration_config.hpp"
+#include "rilo/stage_config.hpp"
 
 namespace rilo {
 

@@ -7,7 +7,7 @@
 
 #include "evaluation/percentile.hpp"
 #include "html_text.hpp"
-#include "rilo/evaluation/alignment.hpp"
+#include "rilo/evaluation/pose_error.hpp"
 
 namespace rilo {
 

@@ -7,7 +7,7 @@
 #include "console/text.hpp"
 #include "io/ground_truth.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/session/run_error.hpp"
+#include "rilo/session/session.hpp"
 
 namespace rilo {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <system_error>
 
-#include "rilo/io/pose_writer.hpp"
-#include "rilo/session/run_error.hpp"
+#include "rilo/io/trajectory_files.hpp"
+#include "rilo/session/session.hpp"
 
 namespace rilo {
 

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/pose_reader.hpp"
-#include "rilo/session/run_error.hpp"
+#include "rilo/io/trajectory_files.hpp"
+#include "rilo/session/session.hpp"
 
 namespace rilo {
 

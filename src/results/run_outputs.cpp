@@ -12,8 +12,7 @@
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/map_writer.hpp"
-#include "rilo/io/pose_writer.hpp"
-#include "rilo/io/trajectory_recording.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 

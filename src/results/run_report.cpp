@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "console/text.hpp"
-#include "rilo/evaluation/alignment.hpp"
+#include "rilo/evaluation/pose_error.hpp"
 
 namespace rilo {
 

@@ -8,7 +8,7 @@
 #include "io/ground_truth.hpp"
 #include "results/pose_files.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 

@@ -13,7 +13,7 @@
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 

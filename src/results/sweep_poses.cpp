@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "cloud/deskew.hpp"
-#include "rilo/session/run_error.hpp"
+#include "rilo/session/session.hpp"
 
 namespace rilo {
 

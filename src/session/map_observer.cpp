@@ -1,4 +1,4 @@
-#include "rilo/session/map_observer.hpp"
+#include "rilo/session/session_observer.hpp"
 
 namespace rilo {
 

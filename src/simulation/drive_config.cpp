@@ -1,8 +1,8 @@
-#include "rilo/simulation/drive_config.hpp"
-
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+
+#include "rilo/simulation/drive_simulator.hpp"
 
 namespace rilo {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "io/atomic_file.hpp"
-#include "rilo/io/pose_writer.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

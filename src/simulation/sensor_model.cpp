@@ -1,10 +1,9 @@
-#include "rilo/simulation/sensor_model.hpp"
-
 #include <array>
 #include <numbers>
 #include <utility>
 
 #include "geometry/degrees.hpp"
+#include "rilo/simulation/drive_simulator.hpp"
 
 namespace rilo {
 namespace {

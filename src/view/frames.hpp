@@ -1,4 +1,4 @@
-// The binary messages between page and program, version 1. Layout: docs/view.md. Everything is little endian.
+// The binary messages between page and program, version 1. Layout: frames.md. Everything is little endian.
 #pragma once
 
 #include <cstdint>

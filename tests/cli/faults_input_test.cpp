@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "cli/drives.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::test {
 namespace {

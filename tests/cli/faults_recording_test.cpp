@@ -5,7 +5,7 @@
 
 #include "cli/drives.hpp"
 #include "io/packets/packet_bytes.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::test {
 namespace {

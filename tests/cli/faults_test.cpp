@@ -10,7 +10,7 @@
 #include "cli/drives.hpp"
 #include "cli/shortages.hpp"
 #include "rilo/io/cloud_reader.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "cli/drives.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::test {
 namespace {

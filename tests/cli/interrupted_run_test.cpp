@@ -2,7 +2,7 @@
 #include <csignal>
 
 #include "cli/drives.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::test {
 namespace {

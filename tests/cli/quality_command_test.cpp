@@ -53,7 +53,7 @@ std::string shaken_poses(double by_m) {
   return text;
 }
 
-TEST(QualityCommand, TruePosesAreCrisp) {
+TEST(QualityCommand, TruePosesAreSharp) {
   const TempDir folder;
   const json truth = quality(shared_drive(), true_poses());
   EXPECT_EQ(truth["sweeps"], kDriveSweeps);

@@ -1,4 +1,4 @@
-// A recording is run anew from its first sweep when the sensor's elevation error has become certain.
+// A recording is run again from its first sweep when the sensor's elevation error has become certain.
 #include <gtest/gtest.h>
 
 #include "cli/drives.hpp"

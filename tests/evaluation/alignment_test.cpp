@@ -1,5 +1,3 @@
-#include "rilo/evaluation/alignment.hpp"
-
 #include <limits>
 #include <stdexcept>
 
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/trajectories.hpp"
+#include "rilo/evaluation/pose_error.hpp"
 
 namespace rilo {
 namespace {

@@ -1,10 +1,9 @@
-#include "rilo/evaluation/error_summary.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "evaluation/percentile.hpp"
+#include "rilo/evaluation/pose_error.hpp"
 
 namespace rilo {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/trajectories.hpp"
-#include "rilo/evaluation/alignment.hpp"
+#include "rilo/evaluation/pose_error.hpp"
 
 namespace rilo {
 namespace {

@@ -30,7 +30,7 @@ struct Drive {
 };
 
 // A floor 1.5 m below and a wall 5 m to the left, seen from a sensor that drives along x; `noise_m` is that of the
-// distance to them. Places are drawn anew for every sweep.
+// distance to them. Places are drawn again for every sweep.
 Drive floor_and_wall(std::size_t sweeps, std::size_t points, double noise_m, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> across(-1, 1);

@@ -3,7 +3,7 @@
 
 #include "io/ros/recording.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/trajectory_recording.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

@@ -8,7 +8,7 @@
 #include "io/io_test_util.hpp"
 #include "io/sweep_writer.hpp"
 #include "rilo/io/cloud_reader.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

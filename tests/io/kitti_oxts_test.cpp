@@ -10,7 +10,7 @@
 #include "io/ground_truth.hpp"
 #include "io/io_test_util.hpp"
 #include "rilo/geometry/se3.hpp"
-#include "rilo/io/pose_reader.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

@@ -4,8 +4,7 @@
 #include <string>
 
 #include "io/io_test_util.hpp"
-#include "rilo/io/pose_reader.hpp"
-#include "rilo/io/pose_writer.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

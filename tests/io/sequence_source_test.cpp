@@ -7,8 +7,8 @@
 #include "io/ground_truth.hpp"
 #include "io/io_test_util.hpp"
 #include "io/sweep_writer.hpp"
-#include "rilo/io/pose_writer.hpp"
 #include "rilo/io/scan_source.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 
 #include "io/io_test_util.hpp"
-#include "rilo/node/base_frame.hpp"
+#include "node/base_frame.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 

@@ -1,5 +1,5 @@
 // Level and sentence of the diagnostics.
-#include "rilo/node/node_health.hpp"
+#include "node/node_health.hpp"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rilo/node/base_frame.hpp"
+#include "node/base_frame.hpp"
 
 namespace rilo {
 namespace {

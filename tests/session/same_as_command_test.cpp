@@ -5,8 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command_process.hpp"
-#include "rilo/io/pose_writer.hpp"
-#include "rilo/io/trajectory_recording.hpp"
+#include "rilo/io/trajectory_files.hpp"
 #include "rilo/session/session.hpp"
 #include "simulation/drive_writer.hpp"
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "rilo/io/io_error.hpp"
-#include "rilo/session/map_observer.hpp"
+#include "rilo/session/session_observer.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 
 namespace rilo {

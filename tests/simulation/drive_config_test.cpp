@@ -1,5 +1,3 @@
-#include "rilo/simulation/drive_config.hpp"
-
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -9,6 +7,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "rilo/simulation/drive_simulator.hpp"
 
 namespace rilo {
 namespace {

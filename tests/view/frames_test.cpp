@@ -38,7 +38,7 @@ ViewSweep sweep_7() {
   return sweep;
 }
 
-// The numbers are those of docs/view.md, written down once more.
+// The numbers are those of src/view/frames.md, written down once more.
 TEST(Frames, ARecordLiesAsDocumented) {
   Bytes records;
   append_record(sweep_7(), records);

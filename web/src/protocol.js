@@ -1,4 +1,4 @@
-// Frames of docs/view.md, version 1. Everything is little endian.
+// Frames of src/view/frames.md, version 1. Everything is little endian.
 export const VERSION = 1;
 const RECORD_BYTES = 216;
 

@@ -33,7 +33,7 @@ OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std:
 /// `config`.
 std::string dump_config(const OdometryConfig& config);
 
-/// Tables of all keys with the values of `config` as defaults, for the documentation.
+/// Table of the keys for users, with the values of `config` as defaults, for the documentation.
 std::string config_markdown(const OdometryConfig& config);
 
 }  // namespace rilo

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "rilo/evaluation/error_summary.hpp"
+#include "rilo/evaluation/pose_error.hpp"
 #include "rilo/geometry/se3.hpp"
 
 namespace rilo {

@@ -32,7 +32,7 @@ struct LiveQueueCounts {
   std::size_t waiting = 0;
 };
 
-/// A message that lies in somebody's memory: nothing of it is copied.
+/// A message in the memory of its owner: nothing of it is copied.
 struct LiveCloud {
   PointCloud2 message;
   std::shared_ptr<const void> owner;  ///< keeps what message.data looks into
@@ -48,7 +48,7 @@ class LiveQueue {
 
   explicit LiveQueue(LiveQueueOptions options) : options_(std::move(options)) {}
 
-  /// Never waits. While the messages of the looking ahead are worked off, more may wait: twice as many, less those
+  /// Never waits. While the messages of the look-ahead are being processed, more may wait: twice as many, less those
   /// taken.
   void push(Message message);
 

@@ -15,6 +15,8 @@
 
 namespace rilo {
 
+class LiveQueue;
+
 /// What is wrong with the stamps of the sweeps given so far. None of it stops a run.
 struct StampFaults {
   std::size_t gaps = 0;          ///< steps of more than 1.5 periods
@@ -98,5 +100,10 @@ std::unique_ptr<ScanSource> open_scan_source(const std::filesystem::path& path, 
 /// All topics of the recording (ROS 1 bags, rosbag2, MCAP) at `path`; empty for other data.
 /// @throws IoError when the recording cannot be read.
 std::vector<TopicInfo> recorded_topics(const std::filesystem::path& path);
+
+/// PointCloud2 messages as they arrive: a source whose next() waits for the next message, and ends when the queue is
+/// closed. Opening it waits for the messages of the looking ahead. The sweeps are those that a recording of the same
+/// messages gives, to the last bit. Options that concern files are ignored; nothing is read ahead.
+std::unique_ptr<ScanSource> open_live_source(std::shared_ptr<LiveQueue> queue, const SourceOptions& options = {});
 
 }  // namespace rilo

@@ -42,7 +42,7 @@ enum class PointTimeReference : std::uint8_t {
 std::string_view to_string(PointTimeReference value);
 std::optional<PointTimeReference> parse_point_time_reference(std::string_view text);
 
-/// Sense of rotation of a spinning sensor, seen from above.
+/// Rotation direction of a spinning sensor, seen from above.
 enum class SpinDirection : std::uint8_t { kClockwise, kCounterClockwise };
 /// clockwise, counter-clockwise.
 std::string_view to_string(SpinDirection value);

@@ -12,7 +12,6 @@
 
 #include "rilo/io/live_queue.hpp"
 #include "rilo/node/node_messages.hpp"
-#include "rilo/node/node_options.hpp"
 #include "rilo/node/node_parameters.hpp"
 
 namespace rilo {
@@ -28,7 +27,7 @@ class NodeOutput {
   /// The local map.
   virtual void publish(CloudMessage&& message) = 0;
 
-  /// Whether somebody listens.
+  /// Whether there are subscribers.
   virtual bool path_wanted() const = 0;
   virtual bool local_map_wanted() const = 0;
 
@@ -66,10 +65,10 @@ class LiveOdometry {
   void note_bad_message(const std::string& why);
   void note_lost(std::size_t total);
 
-  /// Forgets map, path and motion. The next sweep starts anew at the identity, with the configuration of now.
+  /// Forgets map, path and motion. The next sweep is the identity, with the present configuration.
   void reset();
 
-  /// Says where the base was at the last sweep (before the first: is there at the first). Path and maps move along.
+  /// Sets where the base was at the last sweep (before the first: is there at the first). Path and maps move along.
   /// Returns what is wrong with the pose; empty: nothing.
   std::string set_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& orientation);
   /// The same for a pose that comes with its frame: only odom_frame (or no name) is understood.
@@ -88,7 +87,7 @@ class LiveOdometry {
   /// @throws std::invalid_argument as with_parameters(), and for one that is for the start alone.
   bool set_parameters(const std::map<std::string, ParameterValue>& changes);
 
-  /// As of now, for who comes late.
+  /// As of now, for late subscribers.
   PathMessage path() const;
   CloudMessage local_map() const;
 

@@ -1,4 +1,5 @@
-// The parameters of a node: its own and every key of the configuration, with ranges and meanings.
+// The parameters of a node: its own and every key of the configuration, with ranges and meanings. Like all headers of
+// this folder C++17, as ROS 1's need it.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +11,37 @@
 
 #include "rilo/config/config_key.hpp"
 #include "rilo/geometry/se3.hpp"
-#include "rilo/node/node_options.hpp"
+#include "rilo/io/source_options.hpp"
+#include "rilo/odometry/odometry_config.hpp"
 
 namespace rilo {
+
+/// NodeParameters is the table of names, ranges and meanings.
+struct NodeOptions {
+  std::string config_file;  ///< already in `config`
+  OdometryConfig config;
+  SourceOptions source;
+  int queue = 2;        ///< LiveQueueOptions::limit
+  int look_ahead = 12;  ///< LiveQueueOptions::look_ahead
+  std::string odom_frame = "odom";
+  std::string base_frame;             ///< empty: the LiDAR's own frame, as the messages name it
+  std::vector<double> base_to_lidar;  ///< see pose_from_list(); empty: looked up in TF, where base_frame is another
+  bool publish_tf = true;
+  bool invert_tf = false;          ///< base_frame is the parent
+  double path_period_s = 1;        ///< of the sweeps' stamps; 0: at every sweep
+  double local_map_period_s = 1;   ///< the same
+  double map_voxel_m = 0.2;        ///< of the map of the whole run, for save_map; 0: none is kept
+  double diagnostic_period_s = 1;  ///< of wall time
+};
 
 /// As both ROS know them.
 using ParameterValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
-/// When a new value of a parameter shows in a node that runs.
+/// When a new value of a parameter takes effect in a running node.
 enum class ParameterChange : std::uint8_t {
-  kNever,    ///< it is for the start alone
+  kNever,    ///< only at the start
   kAtOnce,   ///< with the next sweep
-  kAtReset,  ///< when the odometry starts anew
+  kAtReset,  ///< with the next reset
 };
 
 /// One parameter, bound to a member of NodeOptions.

@@ -3,10 +3,7 @@
 
 #include <cstdint>
 
-#include "rilo/calibration/calibration_config.hpp"
-#include "rilo/cloud/preprocess_config.hpp"
-#include "rilo/map/local_map_config.hpp"
-#include "rilo/registration/registration_config.hpp"
+#include "rilo/stage_config.hpp"
 
 namespace rilo {
 

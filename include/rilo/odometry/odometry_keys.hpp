@@ -19,7 +19,7 @@ struct KeyChoice {
   std::function<void(std::size_t)> set;
 };
 
-/// What is said about a key.
+/// Description of a key.
 struct KeyInfo {
   std::string_view name;         ///< after the section: "max_range_m"
   std::string_view unit;         ///< empty: none

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,10 +17,27 @@
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 #include "rilo/odometry/sweep_result.hpp"
-#include "rilo/session/run_error.hpp"
 #include "rilo/session/session_observer.hpp"
 
 namespace rilo {
+
+/// Cause of a RunError.
+enum class RunErrorKind : std::uint8_t {
+  kUsage,        ///< the request makes no sense: options, configuration
+  kBadData,      ///< data missing, malformed or not fit for the request
+  kCannotWrite,  ///< a result could not be written
+  kUnexpected,   ///< a bug or an exhausted machine
+};
+
+/// A run, or the writing of its results, has failed.
+class RunError : public std::runtime_error {
+ public:
+  RunError(RunErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  RunErrorKind kind() const { return kind_; }
+
+ private:
+  RunErrorKind kind_;
+};
 
 /// The first pass must find the elevation offset within that many sweeps: later, the beginning is a small part of the
 /// run.

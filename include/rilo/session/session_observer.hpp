@@ -1,10 +1,14 @@
-// Observation of a run while it is running.
+// Observation of a run while it is running; the observer that collects the map.
 #pragma once
 
 #include <cstddef>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "rilo/cloud/sweep.hpp"
+#include "rilo/cloud/thinned_map.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/odometry/sweep_result.hpp"
 
@@ -43,6 +47,26 @@ class SessionObserver {
   SessionObserver() = default;
   SessionObserver(const SessionObserver&) = default;
   SessionObserver& operator=(const SessionObserver&) = default;
+};
+
+/// Collects the points of all sweeps with a pose that can be trusted (belongs_in_map), the first one of every voxel.
+class MapObserver final : public SessionObserver {
+ public:
+  /// `voxel_m`: edge of the voxels, m, positive.
+  explicit MapObserver(double voxel_m) : voxel_m_(voxel_m), map_(voxel_m) {}
+
+  void on_registered(const RegisteredSweep& sweep) override;
+  void on_restart(const Restart& restart) override;
+  void on_end(const Odometry& odometry) override;
+
+  /// After the run, odometry frame (m). When no sweep belongs in it: the local map, without normals and intensities.
+  /// Intensities are there when SessionOptions::keep_intensities.
+  MapCloud cloud(bool with_normals) const;
+
+ private:
+  double voxel_m_;
+  ThinnedMap map_;
+  std::vector<Eigen::Vector3f> local_;
 };
 
 }  // namespace rilo

@@ -1,7 +1,7 @@
 // This build has no librosbag-storage.
 #include "io/ros/recording.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/trajectory_recording.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

@@ -1,4 +1,4 @@
-#include "rilo/io/ros_covariance.hpp"
+#include "io/ros/ros_covariance.hpp"
 
 namespace rilo {
 namespace {

@@ -10,10 +10,10 @@
 #include "io/atomic_file.hpp"
 #include "io/raw_bytes.hpp"
 #include "io/ros/message_stamp.hpp"
+#include "io/ros/ros_covariance.hpp"
 #include "io/unit_quaternion.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/ros_covariance.hpp"
-#include "rilo/io/trajectory_recording.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::detail {
 

@@ -1,12 +1,11 @@
-#include "rilo/io/trajectory_recording.hpp"
-
 #include <cstdint>
 
 #include "io/ros/cdr_writer.hpp"
 #include "io/ros/mcap_writer.hpp"
 #include "io/ros/message_stamp.hpp"
+#include "io/ros/ros_covariance.hpp"
 #include "io/unit_quaternion.hpp"
-#include "rilo/io/ros_covariance.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

@@ -1,10 +1,10 @@
 // Messages as they arrive: the sweeps of a recording of the same messages, drops, looking ahead, the end.
-#include "rilo/io/live_source.hpp"
-
 #include <future>
 
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
+#include "rilo/io/live_queue.hpp"
+#include "rilo/io/scan_source.hpp"
 
 namespace rilo {
 namespace {

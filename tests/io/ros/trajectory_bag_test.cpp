@@ -8,7 +8,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "io/io_test_util.hpp"
-#include "rilo/io/trajectory_recording.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

@@ -1,7 +1,5 @@
 // The MCAP file of a run: what our own reader of recordings finds in it, and, where there is one, the reader of
 // @mcap/core (environment variable RILO_NODE_MODULES, see mcap_core_test.cpp).
-#include "rilo/io/trajectory_recording.hpp"
-
 #include <array>
 #include <cstdlib>
 #include <cstring>
@@ -9,6 +7,7 @@
 #include "io/io_test_util.hpp"
 #include "io/ros/mcap_file.hpp"
 #include "io/ros/recording.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {

@@ -1,4 +1,4 @@
-// What a node tells on /diagnostics.
+// What a node reports on /diagnostics.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ class NodeHealth {
   void note_waiting(const std::string& what);
   void note_sweep(const SweepResult& result, double total_ms);
   void note_bad_message(const std::string& why);
-  /// So many messages in all did not reach the node, as its transport says.
+  /// `total` messages did not reach the node, as its transport reports.
   void note_lost(std::size_t total);
   void note_reset();
   void note_source(const SourceFigures& info);

@@ -16,11 +16,12 @@
 #   coverage        lines of the core that its tests reach, at least 90 %
 #   instructions    instructions a sweep, against benchmarks/instructions.txt
 #   package         Debian packages with shared libraries; the command in them simulates and runs a drive
+#   arm             the core's tests, cross-compiled for 64-bit ARM, under qemu
 #   wheel           the Python wheel, installed into an empty environment: its tests, its command, the same poses
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-phases=(test lint docs sanitize threads fuzz coverage instructions package wheel)
+phases=(test lint docs sanitize threads fuzz coverage instructions package arm wheel)
 
 # Long drives under sanitizers take half an hour.
 long='Elevation.(AnErrorIsFound|ASensorWithoutError)|BeamCalibration.AWorseUnit|Covariance|SameAsCommand'
@@ -42,6 +43,7 @@ run_phase() {
     coverage) scripts/coverage.sh ;;
     instructions) scripts/instructions.sh ;;
     package) scripts/package.sh --try ;;
+    arm) scripts/arm.sh ;;
     wheel) scripts/wheel.sh --try ;;
   esac
 }

@@ -12,6 +12,7 @@
 #   scripts/setup.sh --package  also what building Debian packages needs
 #   scripts/setup.sh --wheel    also what building Python wheels needs
 #   scripts/setup.sh --witnesses  also, from PyPI into build/witnesses, the programs that tests/witnesses asks
+#   scripts/setup.sh --arm      also what cross-compiles for 64-bit ARM and runs its programs
 #   scripts/setup.sh --print    print the package names instead of installing them
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -39,6 +40,7 @@ fuzz=(clang libclang-rt-14-dev)
 package=(dpkg-dev file)
 wheel=("${viewer[@]}" python3-dev python3-venv)
 witnesses=(python3-venv)
+arm=(g++-aarch64-linux-gnu qemu-user-static libtbb-dev:arm64 libgtest-dev:arm64 libgmock-dev:arm64)
 
 minimal=false
 with_all=false
@@ -50,6 +52,7 @@ with_browser=false
 with_package=false
 with_wheel=false
 with_witnesses=false
+with_arm=false
 print_only=false
 for argument in "$@"; do
   case "$argument" in
@@ -63,9 +66,10 @@ for argument in "$@"; do
     --package) with_package=true ;;
     --wheel) with_wheel=true ;;
     --witnesses) with_witnesses=true ;;
+    --arm) with_arm=true ;;
     --print) print_only=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/setup.sh | grep -v '^shellcheck'; exit 0 ;;
-    *) die "unknown option '$argument'; known: --minimal --all --lint --docs --bench --browser --fuzz --package --wheel --witnesses --print" ;;
+    *) die "unknown option '$argument'; known: --minimal --all --lint --docs --bench --browser --fuzz --package --wheel --witnesses --arm --print" ;;
   esac
 done
 
@@ -80,6 +84,7 @@ $minimal || wanted+=("${viewer[@]}" "${tests[@]}")
 ! $with_package || wanted+=("${package[@]}")
 ! $with_wheel || wanted+=("${wheel[@]}")
 ! $with_witnesses || wanted+=("${witnesses[@]}")
+! $with_arm || wanted+=("${arm[@]}")
 if $print_only; then
   printf '%s\n' "${wanted[@]}"
   exit 0
@@ -127,6 +132,7 @@ apt() {
 }
 
 echo "Installing: ${missing[*]}"
+! $with_arm || "${as_root[@]}" dpkg --add-architecture arm64
 apt update || echo "setup.sh: apt-get update failed; trying with the package lists at hand" >&2
 apt install --yes --no-install-recommends "${missing[@]}" || die "apt-get could not install: ${missing[*]}"
 ! $with_witnesses || install_witnesses

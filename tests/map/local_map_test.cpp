@@ -67,7 +67,9 @@ TEST(LocalMapTest, ManyPointsMeetWhatTheirLevelsHold) {
   std::uniform_real_distribution<float> side(-6.0F, 6.0F);
   Points points = patch(0.0F, 0.0F, 0.02F, 10.0F, 4000);
   for (int i = 0; i < 4000; ++i) {
-    points.emplace_back(side(rng), side(rng), std::abs(side(rng)));
+    const float x = side(rng);  // one by one: compilers differ in the order of arguments
+    const float y = side(rng);
+    points.emplace_back(x, y, std::abs(side(rng)));
   }
   map.insert(points, SE3::Identity());
   std::vector<PlaneGrid> levels;
@@ -86,7 +88,9 @@ TEST(LocalMapTest, ManyPointsMeetWhatTheirLevelsHold) {
   }
   std::vector<Eigen::Vector3d> probes;
   for (int i = 0; i < 1000; ++i) {
-    probes.emplace_back(side(rng), side(rng), 0.3 * static_cast<double>(side(rng)));
+    const auto x = static_cast<double>(side(rng));
+    const auto y = static_cast<double>(side(rng));
+    probes.emplace_back(x, y, 0.3 * static_cast<double>(side(rng)));
   }
   std::vector<PlaneSpot> met(probes.size());
   map.visit<LocalMap::Wanted::kPlanesAndScatter>(

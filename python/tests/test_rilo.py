@@ -290,7 +290,7 @@ def test_points_are_used_in_place_and_kept(drive):
 
 def test_what_a_notebook_shows(drive, run, tmp_path):
     odometry, results = run
-    assert re.fullmatch(r"<rilo.SweepResult ok at 1\.1\d* s, position \(.*\) m, inliers \d+ %>", repr(results[-1]))
+    assert re.fullmatch(r"<rilo.SweepResult ok at 1\.1\d* s, position \(.*\) m, \d+ correspondences>", repr(results[-1]))
     assert f"after {SWEEPS} sweeps" in repr(odometry)
     (tmp_path / "a&b").mkdir()
     drive[0][0].tofile(tmp_path / "a&b" / "000000.bin")

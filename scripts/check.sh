@@ -16,7 +16,7 @@
 #   coverage        lines of the core that its tests reach, at least 90 %
 #   instructions    instructions a sweep, against benchmarks/instructions.txt
 #   package         Debian packages with shared libraries; the command in them simulates and runs a drive
-#   wheel           a wheel for each Python that is here, installed into an empty environment: tests, command, same poses
+#   wheel           the source package; a wheel for each Python that is here, in an empty environment: tests, same poses
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -42,7 +42,7 @@ run_phase() {
     coverage) scripts/coverage.sh ;;
     instructions) scripts/instructions.sh ;;
     package) scripts/package.sh --try ;;
-    wheel) scripts/wheel.sh --all --try ;;
+    wheel) scripts/wheel.sh --sdist --try && scripts/wheel.sh --all --try ;;
   esac
 }
 

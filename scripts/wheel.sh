@@ -6,7 +6,7 @@
 #   scripts/wheel.sh PYTHON...          for these interpreters
 #   scripts/wheel.sh --all              for each Python from 3.9 on that is found: Debian's, on the PATH, pyenv's
 #   scripts/wheel.sh --try [PYTHON...]  and tries each in an empty environment: tests, command, the same poses
-#   scripts/wheel.sh --sdist            the source package, build/wheel/rilo-*.tar.gz
+#   scripts/wheel.sh --sdist [--try]    the source package, build/wheel/rilo-*.tar.gz; whether it holds what CMake asks for
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -67,7 +67,16 @@ preset='command'
 if $sdist; then
   build_preset "$preset" --target rilo_view_page  # carried, so that no npm is needed
   env="$(tools "${pythons[0]}")"
-  "$env/bin/python" -m build --sdist --no-isolation --outdir "$out" . | tail -n 1
+  built="$("$env/bin/python" -m build --sdist --no-isolation --outdir "$out" . | tail -n 1)"
+  echo "$built"
+  if $try; then
+    rm -rf "$out/unpacked"
+    mkdir "$out/unpacked"
+    tar -xzf "$out/${built##* }" -C "$out/unpacked" --strip-components 1
+    cmake -S "$out/unpacked/python" -B "$out/unpacked/build/try" --log-level=WARNING -DSKBUILD=ON \
+      -DPython_EXECUTABLE="$env/bin/python" -Dpybind11_DIR="$("$env/bin/pybind11-config" --cmakedir)" >/dev/null
+    echo "wheel: ${built##* } has all its sources"
+  fi
   exit 0
 fi
 

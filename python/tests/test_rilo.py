@@ -134,8 +134,11 @@ def test_settings_are_dicts_or_texts():
     assert nested == rilo.dump_config(settings={"map.voxel_m": np.float32(0.25), "icp.max_iterations": 9})
     assert nested == rilo.dump_config({"map": {"voxel_m": 0.25}}, ["icp.max_iterations=9"])
     assert nested == rilo.Odometry(settings={"map.voxel_m": 0.25, "icp.max_iterations": 9}).config()
-    with pytest.raises(rilo.ConfigError, match="map.voxel.*map.voxel_m"):
-        rilo.Odometry(settings={"map": {"voxel": 0.25}})
+    for argument in "settings", "config":
+        with pytest.raises(rilo.ConfigError, match=f"^{argument} map.voxel=0.25: unknown key .* map.voxel_m"):
+            rilo.Odometry(**{argument: {"map": {"voxel": 0.25}}})
+    with pytest.raises(rilo.ConfigError, match=r'^settings map: there is no "=".*Example: icp.max_iterations=20'):
+        rilo.Odometry(settings=["map"])
     with pytest.raises(TypeError, match=r"map.voxel_m: got \[1\] of type list; expected a number"):
         rilo.Odometry(settings={"map.voxel_m": [1]})
     with pytest.raises(TypeError, match="settings: got 'map.voxel_m=1' of type str; expected a dict or a list"):

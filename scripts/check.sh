@@ -17,7 +17,7 @@
 #   instructions    instructions a sweep, against benchmarks/instructions.txt
 #   package         Debian packages with shared libraries; the command in them simulates and runs a drive
 #   arm             the core's tests, cross-compiled for 64-bit ARM, under qemu
-#   wheel           the Python wheel, installed into an empty environment: its tests, its command, the same poses
+#   wheel           the source package; a wheel for each Python that is here, in an empty environment: tests, same poses
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -44,7 +44,7 @@ run_phase() {
     instructions) scripts/instructions.sh ;;
     package) scripts/package.sh --try ;;
     arm) scripts/arm.sh ;;
-    wheel) scripts/wheel.sh --try ;;
+    wheel) scripts/wheel.sh --sdist --try && scripts/wheel.sh --all --try ;;
   esac
 }
 

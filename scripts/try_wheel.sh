@@ -2,6 +2,7 @@
 # Tries a wheel as its user has it: scripts/try_wheel.sh WHEEL [PYTHON]
 # Installs it into an empty environment, runs the package's tests there, simulates a drive with its command, and compares
 # poses: those of its command with those of the library through Python and with those of build/release/rilo, bit for bit.
+# Then time and error beside KISS-ICP, where PyPI has that for this Python.
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -51,5 +52,10 @@ cmp python.txt results/poses_lidar.txt || die "Python and the command give other
 cmp built/poses_lidar.txt results/poses_lidar.txt || die "the wheel's command and build/release/rilo give other poses"
 
 "${pip[@]}" install pytest
+if "${pip[@]}" install --only-binary :all: kiss-icp==1.3.0; then
+  python "$OLDPWD/python/examples/beside_kiss_icp.py"
+else
+  echo "try_wheel.sh: no KISS-ICP for this Python: not compared"
+fi
 python -m pytest -q -p no:cacheprovider "$OLDPWD/python/tests"
 echo "wheel: $(basename "$wheel"): the poses of the command, of Python and of the build are the same"

@@ -4,23 +4,46 @@
 #
 #   scripts/wheel.sh                    for Debian's Python
 #   scripts/wheel.sh PYTHON...          for these interpreters
+#   scripts/wheel.sh --all              for each Python from 3.9 on that is found: Debian's, on the PATH, pyenv's
 #   scripts/wheel.sh --try [PYTHON...]  and tries each in an empty environment: tests, command, the same poses
-#   scripts/wheel.sh --sdist            the source package, build/wheel/rilo-*.tar.gz
+#   scripts/wheel.sh --sdist [--try]    the source package, build/wheel/rilo-*.tar.gz; whether it holds what CMake asks for
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 try=false
 sdist=false
+all=false
 pythons=()
 for argument in "$@"; do
   case "$argument" in
     --try) try=true ;;
     --sdist) sdist=true ;;
+    --all) all=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
-    -*) die "unknown option '$argument'; known: --try --sdist" ;;
+    -*) die "unknown option '$argument'; known: --all --try --sdist" ;;
     *) pythons+=("$argument") ;;
   esac
 done
+
+# One CPython of each version from 3.9 on, the first that is found with headers and venv: one a line. What the PATH calls
+# pythonX.Y may be a placeholder of pyenv, which fails where that version is not chosen.
+find_pythons() {
+  local root="${PYENV_ROOT:-$HOME/.pyenv}" python found seen=' '
+  { echo /usr/bin/python3; compgen -c python3. | grep -xE 'python3\.[0-9]+' | sort -uV || true
+    printf '%s\n' "$root"/versions/*/bin/python; } |
+    while read -r python; do
+      found="$("$python" -c '
+import os, sys, sysconfig, ensurepip, venv
+usable = sys.version_info >= (3, 9) and sys.implementation.name == "cpython" and not sysconfig.get_config_var("Py_GIL_DISABLED")
+if usable and os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.h")):
+    print("%d.%d" % sys.version_info[:2], sys.executable)' 2>/dev/null || true)"
+      if [ -n "$found" ] && [[ $seen != *" ${found%% *} "* ]]; then
+        seen+="${found%% *} "
+        echo "${found#* }"
+      fi
+    done
+}
+! $all || mapfile -t -O ${#pythons[@]} pythons < <(find_pythons)
 [ ${#pythons[@]} -gt 0 ] || pythons=(/usr/bin/python3)
 out="$PWD/build/wheel"
 
@@ -44,7 +67,16 @@ preset='command'
 if $sdist; then
   build_preset "$preset" --target rilo_view_page  # carried, so that no npm is needed
   env="$(tools "${pythons[0]}")"
-  "$env/bin/python" -m build --sdist --no-isolation --outdir "$out" . | tail -n 1
+  built="$("$env/bin/python" -m build --sdist --no-isolation --outdir "$out" . | tail -n 1)"
+  echo "$built"
+  if $try; then
+    rm -rf "$out/unpacked"
+    mkdir "$out/unpacked"
+    tar -xzf "$out/${built##* }" -C "$out/unpacked" --strip-components 1
+    cmake -S "$out/unpacked/python" -B "$out/unpacked/build/try" --log-level=WARNING -DSKBUILD=ON \
+      -DPython_EXECUTABLE="$env/bin/python" -Dpybind11_DIR="$("$env/bin/pybind11-config" --cmakedir)" >/dev/null
+    echo "wheel: ${built##* } has all its sources"
+  fi
   exit 0
 fi
 

@@ -17,13 +17,17 @@ def output(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-def package_of(library):
-    """The Debian package of libtbb-3f1b2c.so.12.8: of the file of that name before auditwheel changed it."""
-    name = re.sub(r"-[0-9a-f]{8}(?=\.so)", "", library)
-    owners = {line.split(":")[0] for line in output("dpkg-query", "--search", f"*/{name}").splitlines()}
-    if len(owners) != 1:
-        sys.exit(f"wheel_licences.py: {library}: expected one Debian package with {name}, found {sorted(owners)}")
-    return owners.pop()
+def packages_of(libraries):
+    """The Debian packages of libtbb-3f1b2c.so.12.8, …: of the files of these names before auditwheel changed them."""
+    names = {re.sub(r"-[0-9a-f]{8}(?=\.so)", "", library) for library in libraries}
+    owners = {name: set() for name in names}
+    for line in output("dpkg-query", "--search", *(f"*/{name}" for name in sorted(names))).splitlines():
+        package, path = line.split(": ", 1)
+        owners[Path(path).name].add(package.split(":")[0])
+    for name, packages in owners.items():
+        if len(packages) != 1:
+            sys.exit(f"wheel_licences.py: {name}: expected one Debian package with it, found {sorted(packages)}")
+    return set().union(*owners.values())
 
 
 def main():
@@ -31,7 +35,7 @@ def main():
     licences = next(folder.glob("*.dist-info")) / "licenses"
     libraries = sorted(path.name for path in folder.glob("*.libs/*.so*"))
     # libroslib is ours: python/src/roslib_in_wheel.cpp.
-    packages = {package_of(library) for library in libraries if not library.startswith("libroslib-")}
+    packages = packages_of(library for library in libraries if not library.startswith("libroslib-"))
     packages |= {name for name in output("scripts/setup.sh", "--minimal", "--wheel", "--print").split() if name.endswith("-dev")}
     packages |= {"libstdc++6", "libgcc-s1"}
     for package in sorted(packages):

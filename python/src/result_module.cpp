@@ -17,7 +17,7 @@ double seconds_of(const SweepResult& r) { return static_cast<double>(r.stamp_ns)
 std::string result_repr(const SweepResult& r) {
   return "<rilo.SweepResult " + std::string(to_string(r.status)) + " at " + text_of("%.3f", seconds_of(r)) +
          " s, position " + position_text(r.T_odom_lidar.translation()) +
-         text_of(", inliers %.0f %%>", 100 * r.stats.inlier_ratio);
+         text_of(", %zu correspondences>", r.stats.inliers);
 }
 
 std::string result_html(const SweepResult& r) {
@@ -29,7 +29,7 @@ std::string result_html(const SweepResult& r) {
                      {"standard deviation since the sweep before", position_text(sigma)},
                      {"velocity (sensor frame)", text_of("%.2f m/s, %.1f deg/s", r.twist.tail<3>().norm(),
                                                          r.twist.head<3>().norm() * 57.29577951308232)},
-                     {"inliers", text_of("%.0f %% of %zu points", 100 * r.stats.inlier_ratio, r.stats.points_source)},
+                     {"correspondences", text_of("%zu for %zu points", r.stats.inliers, r.stats.points_source)},
                      {"iterations", std::to_string(r.stats.iterations)},
                      {"time", text_of("%.1f ms", r.stats.times.total_ms)}});
 }
@@ -38,7 +38,8 @@ void add_statistics(py::class_<SweepResult>& result) {
   result
       .def_property_readonly(
           "inlier_ratio", [](const SweepResult& r) { return r.stats.inlier_ratio; },
-          "Share of the source points with a correspondence, 0 to 1.")
+          "Correspondences per source point: small where the sweep finds little of the map, above 1 where many points "
+          "lie on no plane, which count along up to three axes.")
       .def_property_readonly(
           "residual_rms_m", [](const SweepResult& r) { return r.stats.residual_rms_m; },
           "Weighted point-to-plane residual, m.")

@@ -57,6 +57,16 @@ def test_the_drive_is_tracked(drive, run):
     assert results[-1].total_ms > 0
 
 
+def test_drift_of_short_paths_and_of_none(drive, run):
+    truth = np.stack([pose for *_, pose in drive])
+    short = rilo.evaluate(truth, run[0].trajectory)  # 10 m
+    assert 0 < short["t_rel_pct"] < 2 and short["r_rel_deg_per_100m"] > 0
+    still = rilo.evaluate(truth[[0, 0, 0]], truth[[0, 0, 0]])
+    assert still["path_m"] == 0 and still["t_rel_pct"] is None and still["r_rel_deg_per_100m"] is None
+    with pytest.raises(ValueError, match="at least two poses, found 1"):
+        rilo.evaluate(truth[:1], truth[:1])
+
+
 def test_results_have_their_shapes(run):
     odometry, results = run
     result = results[-1]
@@ -124,8 +134,11 @@ def test_settings_are_dicts_or_texts():
     assert nested == rilo.dump_config(settings={"map.voxel_m": np.float32(0.25), "icp.max_iterations": 9})
     assert nested == rilo.dump_config({"map": {"voxel_m": 0.25}}, ["icp.max_iterations=9"])
     assert nested == rilo.Odometry(settings={"map.voxel_m": 0.25, "icp.max_iterations": 9}).config()
-    with pytest.raises(rilo.ConfigError, match="map.voxel.*map.voxel_m"):
-        rilo.Odometry(settings={"map": {"voxel": 0.25}})
+    for argument in "settings", "config":
+        with pytest.raises(rilo.ConfigError, match=f"^{argument} map.voxel=0.25: unknown key .* map.voxel_m"):
+            rilo.Odometry(**{argument: {"map": {"voxel": 0.25}}})
+    with pytest.raises(rilo.ConfigError, match=r'^settings map: there is no "=".*Example: icp.max_iterations=20'):
+        rilo.Odometry(settings=["map"])
     with pytest.raises(TypeError, match=r"map.voxel_m: got \[1\] of type list; expected a number"):
         rilo.Odometry(settings={"map.voxel_m": [1]})
     with pytest.raises(TypeError, match="settings: got 'map.voxel_m=1' of type str; expected a dict or a list"):
@@ -280,7 +293,7 @@ def test_points_are_used_in_place_and_kept(drive):
 
 def test_what_a_notebook_shows(drive, run, tmp_path):
     odometry, results = run
-    assert re.fullmatch(r"<rilo.SweepResult ok at 1\.1\d* s, position \(.*\) m, inliers \d+ %>", repr(results[-1]))
+    assert re.fullmatch(r"<rilo.SweepResult ok at 1\.1\d* s, position \(.*\) m, \d+ correspondences>", repr(results[-1]))
     assert f"after {SWEEPS} sweeps" in repr(odometry)
     (tmp_path / "a&b").mkdir()
     drive[0][0].tofile(tmp_path / "a&b" / "000000.bin")
@@ -508,3 +521,23 @@ def test_the_examples_run(tmp_path, recording):
     done = subprocess.run([sys.executable, EXAMPLES / "write_poses.py", recording, written], capture_output=True, text=True, check=True)  # fmt: skip
     assert f"after {SWEEPS} sweeps" in done.stdout
     assert np.array_equal(rilo.read_poses(written, "kitti").shape, (SWEEPS, 4, 4))
+
+
+BESIDE = EXAMPLES / "beside_kiss_icp.py"
+
+
+def test_without_kiss_icp_a_sentence_says_so():
+    without = "import runpy, sys; sys.modules['kiss_icp'] = None; runpy.run_path(sys.argv[1], run_name='__main__')"
+    done = subprocess.run([sys.executable, "-c", without, BESIDE], capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and done.stderr == "KISS-ICP is not installed: pip install kiss-icp\n"
+
+
+def test_beside_kiss_icp(recording):
+    pytest.importorskip("kiss_icp")
+    done = subprocess.run([sys.executable, BESIDE, "--sweeps", "4"], capture_output=True, text=True, check=True)
+    assert "4 sweeps of " in done.stdout
+    rows = re.findall(r"^(rilo|kiss-icp) \S+ +([\d.]+) ms a sweep .*APE ([\d.]+) m", done.stdout, re.MULTILINE)
+    assert [name for name, *_ in rows] == ["rilo", "kiss-icp"]
+    assert all(float(ms) > 0 for _, ms, _ in rows) and float(rows[0][2]) < 0.05
+    no_truth = subprocess.run([sys.executable, BESIDE, recording], capture_output=True, text=True, check=False)
+    assert no_truth.returncode == 2 and "TRUTH is missing" in no_truth.stderr

@@ -55,8 +55,7 @@ def odometry(given):
                                parameters=parameters, remappings=remappings,
                                extra_arguments=[{"use_intra_process_comms": True}])
     if container == CONTAINER_OF_ITS_OWN:
-        # With several threads: a map that is saved does not keep sweeps waiting.
-        return ComposableNodeContainer(package="rclcpp_components", executable="component_container_mt",
+        return ComposableNodeContainer(package="rclcpp_components", executable="component_container",
                                        name="rilo_container", namespace="", output="screen",
                                        composable_node_descriptions=[component])
     return LoadComposableNodes(target_container=container, composable_node_descriptions=[component])

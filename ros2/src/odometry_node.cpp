@@ -31,6 +31,12 @@ std::unique_ptr<Ros> to_ros(Message&& message) {
   return to;
 }
 
+rclcpp::ExecutorOptions executor_of(const rclcpp::NodeOptions& node) {
+  rclcpp::ExecutorOptions options;
+  options.context = node.context();
+  return options;
+}
+
 // The message's data stay where they are.
 LiveCloud to_live(sensor_msgs::msg::PointCloud2::ConstSharedPtr message) {
   LiveCloud live;
@@ -90,7 +96,8 @@ class TransformSource {
 OdometryNode::OdometryNode(const rclcpp::NodeOptions& options)
     : Node("rilo", options),
       broadcaster_(*this),
-      odometry_(declare_options(*this), get_node_topics_interface()->resolve_topic_name(kCloudTopic), *this) {
+      odometry_(declare_options(*this), get_node_topics_interface()->resolve_topic_name(kCloudTopic), *this),
+      cloud_executor_(executor_of(options)) {
   advertise();
   parameters_callback_ = add_on_set_parameters_callback(
       [this](const std::vector<rclcpp::Parameter>& parameters) { return on_parameters(parameters); });
@@ -98,7 +105,12 @@ OdometryNode::OdometryNode(const rclcpp::NodeOptions& options)
   subscribe();
 }
 
-OdometryNode::~OdometryNode() { odometry_.stop(); }
+OdometryNode::~OdometryNode() {
+  ended_.set_value();
+  cloud_executor_.cancel();
+  cloud_thread_.join();
+  odometry_.stop();
+}
 
 void OdometryNode::advertise() {
   using std_srvs::srv::Trigger;
@@ -145,8 +157,9 @@ void OdometryNode::subscribe() {
   pose_subscription_ = create_subscription<geometry_msgs::msg::PoseWithCovarianceStamped>(
       "initialpose", rclcpp::QoS(1),
       [this](const geometry_msgs::msg::PoseWithCovarianceStamped& message) { on_initial_pose(message); });
-  // In a group of its own: where the executor has two threads, a map that is saved does not keep sweeps waiting.
-  cloud_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
+  // On a thread of its own: a map that is saved does not keep sweeps waiting, whatever the container. A second group in
+  // the container's executor would abort it when the node is unloaded: Humble forgets to take out its guard condition.
+  cloud_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive, false);
   rclcpp::SubscriptionOptions options;
   options.callback_group = cloud_group_;
   options.qos_overriding_options = rclcpp::QosOverridingOptions::with_default_policies();
@@ -159,6 +172,9 @@ void OdometryNode::subscribe() {
   if (get_parameter("queue").as_int() == 0) qos.keep_last(kDepthOfAll);
   cloud_subscription_ = create_subscription<PointCloud2>(
       kCloudTopic, qos, [this](PointCloud2::ConstSharedPtr message) { on_cloud(std::move(message)); }, options);
+  cloud_executor_.add_callback_group(cloud_group_, get_node_base_interface());
+  // Until the future, not until cancel(): that would be forgotten if it came before the thread has begun.
+  cloud_thread_ = std::thread([this] { cloud_executor_.spin_until_future_complete(ended_.get_future()); });
 }
 
 void OdometryNode::on_cloud(PointCloud2::ConstSharedPtr message) {

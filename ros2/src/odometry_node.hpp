@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <diagnostic_msgs/msg/diagnostic_array.hpp>
+#include <future>
 #include <geometry_msgs/msg/pose_with_covariance_stamped.hpp>
 #include <memory>
 #include <nav_msgs/msg/odometry.hpp>
@@ -15,6 +16,7 @@
 #include <std_srvs/srv/trigger.hpp>
 #include <string>
 #include <tf2_ros/transform_broadcaster.h>
+#include <thread>
 #include <vector>
 
 #include "rilo/node/live_odometry.hpp"
@@ -23,7 +25,7 @@ namespace rilo::ros2 {
 
 class TransformSource;
 
-/// Messages come in on the executor's threads; the thread of LiveOdometry publishes.
+/// Sweeps come in on a thread of their own, the rest on the executor's; the thread of LiveOdometry publishes.
 class OdometryNode final : public rclcpp::Node, private NodeOutput {
  public:
   /// @throws as declare_options().
@@ -62,6 +64,9 @@ class OdometryNode final : public rclcpp::Node, private NodeOutput {
   rclcpp::Publisher<diagnostic_msgs::msg::DiagnosticArray>::SharedPtr diagnostics_publisher_;
   std::size_t path_listeners_ = 0;
   std::size_t map_listeners_ = 0;
+  std::promise<void> ended_;
+  rclcpp::executors::SingleThreadedExecutor cloud_executor_;
+  std::thread cloud_thread_;
   rclcpp::CallbackGroup::SharedPtr cloud_group_;
   rclcpp::Subscription<PointCloud2>::SharedPtr cloud_subscription_;
   rclcpp::Subscription<geometry_msgs::msg::PoseWithCovarianceStamped>::SharedPtr pose_subscription_;

@@ -9,10 +9,7 @@
 int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
   try {
-    const auto node = std::make_shared<rilo::ros2::OdometryNode>(rclcpp::NodeOptions());
-    rclcpp::executors::MultiThreadedExecutor executor(rclcpp::ExecutorOptions(), 2);
-    executor.add_node(node);
-    executor.spin();
+    rclcpp::spin(std::make_shared<rilo::ros2::OdometryNode>(rclcpp::NodeOptions()));
   } catch (const std::exception& error) {
     RCLCPP_FATAL(rclcpp::get_logger("rilo"), "%s", error.what());
     rclcpp::shutdown();

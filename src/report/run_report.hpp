@@ -22,7 +22,7 @@ struct ReportSweep {
   double registration_ms = 0;
   double map_ms = 0;
   int iterations = 0;
-  double inlier_ratio = 0;  ///< 0 … 1
+  double inlier_ratio = 0;  ///< correspondences per source point
   double sigma_th_m = 0;
   std::string status;        ///< ok, initialising, degenerate, …: as to_string(OdometryStatus) names them
   std::string initial_pose;  ///< identity, prediction or coarse

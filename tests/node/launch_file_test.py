@@ -66,7 +66,7 @@ def main():
     assert component.plugin == "rilo::ros2::OdometryNode"
     assert component.extra_arguments == [{"use_intra_process_comms": True}]
     container, = started(module, container="own")
-    assert (container.kind, container.executable) == ("ComposableNodeContainer", "component_container_mt")
+    assert (container.kind, container.executable) == ("ComposableNodeContainer", "component_container")
 
 
 if __name__ == "__main__":

@@ -48,7 +48,8 @@ class LocalMap {
   /// in order, that meets a surface element (or, if wanted, a voxel that is not a plane). Look-ups run in batches: one
   /// by one they would wait for memory most of the time. They begin at the finest level in use or at `level`.
   template <Wanted What = Wanted::kPlanes, typename PointAt, typename Use>
-  void visit(std::size_t first, std::size_t last, const PointAt& point_at, const Use& use, std::size_t level = 0) const {
+  void visit(std::size_t first, std::size_t last, const PointAt& point_at, const Use& use,
+             std::size_t level = 0) const {
     std::array<Eigen::Vector3d, kBatch> points;
     std::array<PlaneSpot, kBatch> spots;
     for (std::size_t begin = first; begin < last; begin += kBatch) {

@@ -190,7 +190,9 @@ double InitialPoseStage::score(const TimedCloud& source, const MotionState& stat
 
 void InitialPoseStage::learn(double score, std::optional<double> residual_rms_m) {
   const double rate = is_consistent(score) ? kLearningRate : kDoubtfulLearningRate;
-  const auto follow = [rate](double& usual, double value) { usual = usual > 0.0 ? usual + rate * (value - usual) : value; };
+  const auto follow = [rate](double& usual, double value) {
+    usual = usual > 0.0 ? usual + rate * (value - usual) : value;
+  };
   follow(usual_score_, score);
   if (residual_rms_m) {
     follow(usual_rms_m_, *residual_rms_m);

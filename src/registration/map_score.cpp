@@ -22,7 +22,7 @@ constexpr std::size_t kMostPoints = 640;
 constexpr std::size_t kMorePoints = 4;       // times as many from round to round ...
 constexpr std::size_t kSurvivors = 8;        // ... for an eighth of the nodes, ...
 constexpr std::size_t kLeastSurvivors = 50;  // ... but no fewer
-constexpr double kVoxelSigmas = 2.0;  // smaller voxels than this tell a search no more
+constexpr double kVoxelSigmas = 2.0;         // smaller voxels than this tell a search no more
 
 std::vector<Candidate> grid_nodes(const PoseGrid& grid) {
   const int shifts = static_cast<int>(std::lround(grid.max_shift_m / grid.shift_step_m));

@@ -87,7 +87,7 @@ TEST(LocalMapTest, ManyPointsMeetWhatTheirLevelsHold) {
     levels.back().refit();
   }
   std::vector<Eigen::Vector3d> probes;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     const auto x = static_cast<double>(side(rng));
     const auto y = static_cast<double>(side(rng));
     probes.emplace_back(x, y, 0.3 * static_cast<double>(side(rng)));

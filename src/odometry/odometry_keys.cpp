@@ -182,7 +182,7 @@ void add_elevation(KeyVisitor& keys, ElevationOffsetConfig& c) {
   keys.real({"initial_deg", "deg", "known offset: added to the elevation angles from the first sweep on"},
             c.initial_deg, -10, 10);
   keys.real({"significance", "", "standard deviations from 0 or initial_deg that are significant; 1000: estimate only",
-             "experiment: elevation at 2 σ"},
+             "experiment: elevation at 2.2 σ"},
             c.significance, 0, 1000);
   keys.real({"least_deg", "deg", "smaller errors are not corrected", kNotTuned}, c.least_deg, 0, 10);
   keys.real({"step_deg", "deg", "largest change of the correction from sweep to sweep",

@@ -57,6 +57,26 @@ TEST(LocalMapTest, OnePointIsInEveryLevelAndGivenBackOnce) {
   EXPECT_TRUE(map.points().empty());
 }
 
+TEST(LocalMapTest, LookUpsBeginAtALevelOfThoseInUse) {
+  LocalMap map(config_of(4));  // voxels of 0.25, 0.5, 1, 2 m
+  EXPECT_EQ(map.level_of(0.0), 0U);
+  EXPECT_EQ(map.level_of(0.6), 2U);
+  EXPECT_EQ(map.level_of(100.0), 3U);
+  map.insert(patch(0.0F, 0.0F, 0.02F, 10.0F, 40000), SE3::Identity());
+  const auto voxel_from = [&](std::size_t level) {
+    double voxel_m = 0.0;
+    map.visit(
+        0, 1, [](std::size_t) { return Eigen::Vector3d(0.1, 0.1, 0.02); },
+        [&](std::size_t, const Eigen::Vector3d&, const PlaneSpot& spot) { voxel_m = spot.grid->voxel_m(); }, level);
+    return voxel_m;
+  };
+  EXPECT_EQ(voxel_from(0), 0.25);
+  EXPECT_EQ(voxel_from(2), 1.0);
+  map.set_scene_range(16.0);  // the finest in use: 0.5 m
+  EXPECT_EQ(map.level_of(0.0), 1U);
+  EXPECT_EQ(voxel_from(0), 0.5);
+}
+
 // Look-ups of many points, level by level, find what each level's own look-up finds: the finest plane, or the finest
 // points that are not a plane.
 TEST(LocalMapTest, ManyPointsMeetWhatTheirLevelsHold) {

@@ -1,4 +1,6 @@
 // III-B by hand: prediction or coarse result.
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "odometry/initial_pose.hpp"
@@ -39,6 +41,15 @@ TEST(InitialPoseStage, AFitFarBelowTheUsualOneIsSuspicious) {
   // Score over residuals below 0.8 of the usual.
   EXPECT_FALSE(stage.suspicious(0.66, 0.03));
   EXPECT_TRUE(stage.suspicious(0.62, 0.03));
+  EXPECT_FALSE(stage.suspicious(0.8, 0.036));
+  EXPECT_TRUE(stage.suspicious(0.8, 0.039));
+}
+
+TEST(InitialPoseStage, ResidualsOfTheFirstSweepsOfAMapAreNotUsual) {
+  InitialPoseStage stage({}, {});
+  stage.learn(0.8, std::nullopt);
+  EXPECT_FALSE(stage.suspicious(0.1, 0.5));
+  stage.learn(0.8, 0.03);  // the first that counts, in full
   EXPECT_FALSE(stage.suspicious(0.8, 0.036));
   EXPECT_TRUE(stage.suspicious(0.8, 0.039));
 }

@@ -78,12 +78,12 @@ std::string oxts_line(const CarPose& pose, const CarPose& first) {
 std::string number_of(int i) { return std::string(10 - std::to_string(i).size(), '0') + std::to_string(i); }
 
 // A drive of 30 sweeps, of which the fifth is missing.
-constexpr int kSweeps = 30;
+constexpr int kOxtsSweeps = 30;
 constexpr int kMissing = 5;
 fs::path write_drive(const TempDir& folder, bool calibrated = true) {
   const std::string drive = "2011_09_26/2011_09_26_drive_0001_sync";
   std::string dates;
-  for (int i = 0; i < kSweeps; ++i) {
+  for (int i = 0; i < kOxtsSweeps; ++i) {
     if (i != kMissing) folder.write(drive + "/velodyne_points/data/" + number_of(i) + ".bin", bin_of(1));
     folder.write(drive + "/oxts/data/" + number_of(i) + ".txt", oxts_line(car_pose(i), car_pose(0)));
     const std::string tenths = std::to_string(100 + i);
@@ -102,7 +102,7 @@ TEST(KittiOxtsTest, TheTrajectoryOfTheLidar) {
   ASSERT_TRUE(truth);
   EXPECT_EQ(truth->instant, "stamp");
   EXPECT_TRUE(truth->warnings.empty());
-  ASSERT_EQ(truth->T_world_lidar.size(), kSweeps - 1U);
+  ASSERT_EQ(truth->T_world_lidar.size(), kOxtsSweeps - 1U);
   EXPECT_TRUE(truth->T_world_lidar[0].isApprox(SE3::Identity(), 1e-15));
   const SE3 T_imu_velo = velo_from_imu().inverse(Eigen::Affine);
   const SE3 first = (car_pose(0).world_from_imu() * T_imu_velo).inverse();
@@ -120,7 +120,7 @@ TEST(KittiOxtsTest, OtherTruthGoesBefore) {
   const TempDir folder;
   const fs::path drive = write_drive(folder);
   std::string rows;
-  for (int i = 1; i < kSweeps; ++i) rows += test::kitti_row(i, 0, 0);
+  for (int i = 1; i < kOxtsSweeps; ++i) rows += test::kitti_row(i, 0, 0);
   folder.write(fs::relative(drive / "poses_velo.txt", folder.path()).string(), rows);
   EXPECT_EQ(read_ground_truth(drive, TruthInstant::kMid)->file.filename(), "poses_velo.txt");
 }
@@ -136,7 +136,7 @@ TEST(KittiOxtsTest, TheCalibration) {
     expect_io_error(read, {"calib_imu_to_velo.txt", "R: with the 9 numbers of a rotation"});
   }
   std::ofstream(drive / "calib_imu_to_velo.txt") << kCalibration;  // in the drive itself, before that of the day
-  EXPECT_EQ(read_ground_truth(drive, TruthInstant::kMid)->T_world_lidar.size(), kSweeps - 1U);
+  EXPECT_EQ(read_ground_truth(drive, TruthInstant::kMid)->T_world_lidar.size(), kOxtsSweeps - 1U);
 }
 
 TEST(KittiOxtsTest, DamagedDrives) {

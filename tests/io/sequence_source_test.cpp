@@ -85,7 +85,7 @@ TEST(SequenceSourceTest, SequenceErrors) {
   expect_io_error([&] { open_scan_source(folder.path()); }, {"calib.txt", "line 1", "3 values"});
 }
 
-void write_drive(const TempDir& folder, const std::string& meta) {
+void write_drive_folder(const TempDir& folder, const std::string& meta) {
   for (const char* name : {"000000", "000001"}) {
     folder.write(std::string("velodyne/") + name + ".bin", bytes_of<float>({-1, 0.1F, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}));
     folder.write(std::string("times_pt/") + name + ".bin", bytes_of<float>({0, 0.5F, 1}));
@@ -96,7 +96,7 @@ void write_drive(const TempDir& folder, const std::string& meta) {
 
 TEST(SequenceSourceTest, DriveSimulator) {
   const TempDir folder;
-  write_drive(folder, R"({"rate_hz": 5})");
+  write_drive_folder(folder, R"({"rate_hz": 5})");
   const auto source = open_scan_source(folder.path());
   EXPECT_EQ(source->info().kind, "drive simulator");
   EXPECT_TRUE(source->info().has_point_times);
@@ -134,7 +134,7 @@ TEST(SequenceSourceTest, WrittenDriveComesBack) {
 
 TEST(SequenceSourceTest, DriveSimulatorWithoutItsTimesOrFromAzimuth) {
   const TempDir folder;
-  write_drive(folder, R"({"rate_hz": 5})");
+  write_drive_folder(folder, R"({"rate_hz": 5})");
   SourceOptions options;
   options.point_times = PointTimes::kNone;
   auto source = open_scan_source(folder.path(), options);
@@ -151,7 +151,7 @@ TEST(SequenceSourceTest, DriveSimulatorWithoutItsTimesOrFromAzimuth) {
 
 TEST(SequenceSourceTest, DriveSimulatorErrors) {
   const TempDir folder;
-  write_drive(folder, "{");
+  write_drive_folder(folder, "{");
   expect_io_error([&] { open_scan_source(folder.path()); }, {"meta.json", "not a JSON object"});
   folder.write("meta.json", R"({"rate_hz": "fast"})");
   expect_io_error([&] { open_scan_source(folder.path()); }, {"meta.json", "rate_hz"});

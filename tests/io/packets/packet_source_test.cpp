@@ -23,7 +23,7 @@ using test::sweeps_of;
 using test::TempDir;
 using test::velodyne_packet;
 
-constexpr std::int64_t kBegin = 1'700'000'123'000'000'000;
+constexpr std::int64_t kCaptureBegin = 1'700'000'123'000'000'000;
 
 // `turns` of a sensor of 10 Hz: packets of 12 blocks of 1°, 30 a turn, from `azimuth` on.
 Capture velodyne_drive(std::uint8_t product, double turns, int azimuth = 9000, std::uint32_t hour_us = 100) {
@@ -31,8 +31,8 @@ Capture velodyne_drive(std::uint8_t product, double turns, int azimuth = 9000, s
   const auto packets = static_cast<int>(turns * 30);
   for (int i = 0; i < packets; ++i) {
     const std::uint32_t us = (hour_us + static_cast<std::uint32_t>(i) * 3333U) % 3'600'000'000U;
-    capture.udp(kBegin + i * 3'333'000LL, 2368, velodyne_packet((azimuth + i * 1200) % 36000, 100, us, product));
-    capture.udp(kBegin + i * 3'333'000LL, 8308, std::string(512, 'g'));  // its GPS
+    capture.udp(kCaptureBegin + i * 3'333'000LL, 2368, velodyne_packet((azimuth + i * 1200) % 36000, 100, us, product));
+    capture.udp(kCaptureBegin + i * 3'333'000LL, 8308, std::string(512, 'g'));  // its GPS
   }
   return capture;
 }
@@ -90,7 +90,7 @@ TEST(VelodyneTest, OfTwoReturnsTheLast) {
   Capture capture;
   for (int i = 0; i < 150; ++i) {
     capture.udp(
-        kBegin + i * 1'666'000LL, 2368,
+        kCaptureBegin + i * 1'666'000LL, 2368,
         velodyne_packet((18000 + i * 600) % 36000, 100, static_cast<std::uint32_t>(i * 1666), 0x21, 5000, 0x39));
   }
   const auto source = open_scan_source(folder.write("v.pcap", capture.text()));
@@ -120,7 +120,7 @@ TEST(VelodyneTest, TwoBanksNeedACalibration) {
       packet[block * 100 + 2] = packet[block * 100 - 98];  // the same azimuth as the upper bank's
       packet[block * 100 + 3] = packet[block * 100 - 97];
     }
-    capture.udp(kBegin + i * 3'333'000LL, 2368, packet);
+    capture.udp(kCaptureBegin + i * 3'333'000LL, 2368, packet);
   }
   const auto file = folder.write("h.pcap", capture.text());
   expect_io_error([&] { open_scan_source(file); }, {"h.pcap", "HDL-64E", "--sensor-file"});
@@ -152,16 +152,17 @@ TEST(VelodyneTest, TheHourEnds) {
 TEST(PacketClockTest, TakesAClockThatIsRightAndSetsAnyOther) {
   constexpr std::int64_t kHour = 3'600'000'000'000;
   detail::PacketClock right(kHour);
-  EXPECT_EQ(right.stamp_ns(kBegin % kHour - 400'000'000, kBegin), kBegin - 400'000'000);
+  EXPECT_EQ(right.stamp_ns(kCaptureBegin % kHour - 400'000'000, kCaptureBegin), kCaptureBegin - 400'000'000);
   detail::PacketClock other(kHour);
-  EXPECT_EQ(other.stamp_ns(5'000, kBegin), kBegin);
-  EXPECT_EQ(other.stamp_ns(100'005'000, kBegin + 130'000'000), kBegin + 100'000'000);  // the recorder was late
+  EXPECT_EQ(other.stamp_ns(5'000, kCaptureBegin), kCaptureBegin);
+  EXPECT_EQ(other.stamp_ns(100'005'000, kCaptureBegin + 130'000'000),
+            kCaptureBegin + 100'000'000);  // the recorder was late
   EXPECT_EQ(other.resets(), 0U);
-  EXPECT_EQ(other.stamp_ns(900'000'000'000, kBegin + 200'000'000), kBegin + 200'000'000);
+  EXPECT_EQ(other.stamp_ns(900'000'000'000, kCaptureBegin + 200'000'000), kCaptureBegin + 200'000'000);
   EXPECT_EQ(other.resets(), 1U);
   detail::PacketClock absolute(0);
-  EXPECT_EQ(absolute.stamp_ns(kBegin - 37, kBegin), kBegin - 37);
-  EXPECT_EQ(absolute.stamp_ns(INT64_MAX, kBegin), kBegin);  // damaged: no overflow
+  EXPECT_EQ(absolute.stamp_ns(kCaptureBegin - 37, kCaptureBegin), kCaptureBegin - 37);
+  EXPECT_EQ(absolute.stamp_ns(INT64_MAX, kCaptureBegin), kCaptureBegin);  // damaged: no overflow
 }
 
 // --- Ouster -------------------------------------------------------------------------------------------------------
@@ -170,9 +171,9 @@ Capture ouster_drive(const OusterShape& shape, std::size_t packets, std::size_t 
   Capture capture;
   for (std::size_t i = 0; i < packets; ++i) {
     const std::uint64_t ns = 5'000'000 + i * 1'562'500;
-    capture.udp(kBegin + static_cast<std::int64_t>(ns), 7502,
+    capture.udp(kCaptureBegin + static_cast<std::int64_t>(ns), 7502,
                 ouster_packet(shape, static_cast<std::uint16_t>(65535 + i / 64), i % 64 * 16, ns), mtu);
-    capture.udp(kBegin + static_cast<std::int64_t>(ns), 7503, std::string(48, 'i'));
+    capture.udp(kCaptureBegin + static_cast<std::int64_t>(ns), 7503, std::string(48, 'i'));
   }
   return capture;
 }

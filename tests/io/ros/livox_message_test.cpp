@@ -16,12 +16,12 @@ using test::Recorded;
 using test::sweeps_of;
 using test::TempDir;
 
-constexpr std::int64_t kBegin = 1'700'000'000'250'000'000;
+constexpr std::int64_t kFirstLivoxStamp = 1'700'000'000'250'000'000;
 constexpr std::uint32_t kPoints = 41;
 
 // Point k of a message is fired k · 2 ms after the stamp.
 std::string livox_message(bool ros1, std::size_t number, std::uint32_t announced = kPoints) {
-  const std::int64_t stamp_ns = kBegin + static_cast<std::int64_t>(number) * 100'000'000;
+  const std::int64_t stamp_ns = kFirstLivoxStamp + static_cast<std::int64_t>(number) * 100'000'000;
   Bytes bytes(!ros1);
   test::put_header(bytes, ros1, stamp_ns, "livox_frame");
   bytes.put(static_cast<std::uint64_t>(stamp_ns)).put(kPoints).put(std::uint8_t{3}).raw("rsv").put(announced);
@@ -36,8 +36,8 @@ std::string livox_message(bool ros1, std::size_t number, std::uint32_t announced
 std::vector<Recorded> messages(bool ros1) {
   std::vector<Recorded> all;
   for (std::size_t i = 0; i < 5; ++i) {
-    all.push_back(
-        {"/livox/lidar", kBegin + static_cast<std::int64_t>(i) * 100'000'000 + 105'000'000, livox_message(ros1, i)});
+    all.push_back({"/livox/lidar", kFirstLivoxStamp + static_cast<std::int64_t>(i) * 100'000'000 + 105'000'000,
+                   livox_message(ros1, i)});
     all.push_back({"/livox/imu", all.back().received_ns, "nothing that is read"});
   }
   return all;
@@ -55,7 +55,7 @@ TEST(LivoxTest, BothDriversInEveryContainer) {
       ASSERT_EQ(sweeps.size(), 5U);
       for (std::size_t i = 0; i < sweeps.size(); ++i) {
         const Sweep& sweep = sweeps[i];
-        EXPECT_EQ(sweep.stamp_ns, kBegin + static_cast<std::int64_t>(i) * 100'000'000);
+        EXPECT_EQ(sweep.stamp_ns, kFirstLivoxStamp + static_cast<std::int64_t>(i) * 100'000'000);
         ASSERT_EQ(sweep.points.size(), kPoints);
         EXPECT_EQ(sweep.points[7], Eigen::Vector3f(static_cast<float>(i) + 1.5F, 7, -0.25F));
         EXPECT_EQ(sweep.intensities[7], 107);
@@ -77,13 +77,14 @@ TEST(LivoxTest, BothDriversInEveryContainer) {
 TEST(LivoxTest, TheUnitIsNotInferred) {
   const TempDir folder;
   Bytes bytes(true);
-  test::put_header(bytes, false, kBegin, "l");
+  test::put_header(bytes, false, kFirstLivoxStamp, "l");
   bytes.put(std::uint64_t{0}).put(std::uint32_t{2}).put(std::uint32_t{0}).put(std::uint32_t{2});
   for (const std::uint32_t time : {0U, 10'000U}) {
     bytes.put(time).put(1.0F).put(2.0F).put(3.0F).put(std::uint8_t{1}).put(std::uint8_t{0}).put(std::uint8_t{0});
   }
-  const auto file = folder.write("l.mcap", test::mcap_bytes({{"/l", "livox_ros_driver2/msg/CustomMsg"}},
-                                                            {{"/l", kBegin, test::finished(bytes, false)}}, {}));
+  const auto file =
+      folder.write("l.mcap", test::mcap_bytes({{"/l", "livox_ros_driver2/msg/CustomMsg"}},
+                                              {{"/l", kFirstLivoxStamp, test::finished(bytes, false)}}, {}));
   const auto sweeps = sweeps_of(*open_scan_source(file));
   ASSERT_EQ(sweeps.size(), 1U);
   EXPECT_EQ(sweeps[0].times_s[1], 1e-5F);

@@ -22,10 +22,10 @@ using test::sweeps_of;
 using test::TempDir;
 using test::velodyne_packet;
 
-constexpr std::int64_t kBegin = 1'700'000'123'000'000'000;
+constexpr std::int64_t kFirstPacketStamp = 1'700'000'123'000'000'000;
 constexpr int kPackets = 130;  // 30 a revolution
 
-std::int64_t received_ns(int packet) { return kBegin + packet * 3'333'000LL; }
+std::int64_t received_ns(int packet) { return kFirstPacketStamp + packet * 3'333'000LL; }
 std::string vlp16(int packet) {
   return velodyne_packet((9000 + packet * 1200) % 36000, 100, 100 + static_cast<std::uint32_t>(packet) * 3333, 0x22);
 }
@@ -89,10 +89,11 @@ std::string packet_message(bool ros1, const std::string& packet) {
 // 70 packets: a frame of 64 and the beginning of the next. `more`: bytes that the buffer has behind the packet.
 std::vector<Recorded> ouster_messages(bool ros1, const OusterShape& shape, bool with_metadata, std::size_t more = 0) {
   std::vector<Recorded> messages;
-  if (with_metadata) messages.push_back({"/os_node/metadata", kBegin, text_message(ros1, ouster_metadata(shape))});
+  if (with_metadata)
+    messages.push_back({"/os_node/metadata", kFirstPacketStamp, text_message(ros1, ouster_metadata(shape))});
   for (std::size_t i = 0; i < 70; ++i) {
     const std::uint64_t ns = 5'000'000 + i * 1'562'500;
-    const std::int64_t at = kBegin + static_cast<std::int64_t>(ns);
+    const std::int64_t at = kFirstPacketStamp + static_cast<std::int64_t>(ns);
     const std::string packet = ouster_packet(shape, static_cast<std::uint16_t>(7 + i / 64), i % 64 * 16, ns);
     messages.push_back({"/os_node/lidar_packets", at, packet_message(ros1, packet + std::string(more, '\0'))});
     messages.push_back({"/os_node/imu_packets", at, packet_message(ros1, std::string(48 + more, 'i'))});
@@ -111,7 +112,7 @@ void expect_frame(ScanSource& source, const OusterShape& shape) {
   const auto sweeps = sweeps_of(source);
   ASSERT_EQ(sweeps.size(), 1U);
   EXPECT_EQ(sweeps[0].points.size(), 1024U * 3);  // the lowest beam has no return
-  EXPECT_EQ(sweeps[0].stamp_ns, kBegin + 5'000'000);
+  EXPECT_EQ(sweeps[0].stamp_ns, kFirstPacketStamp + 5'000'000);
   EXPECT_EQ(source.info().topic, "/os_node/lidar_packets");
   EXPECT_NE(source.info().format.find("Ouster OS-1-4, " + shape.profile), std::string::npos);
 }
@@ -153,7 +154,7 @@ TEST(OusterPacketsTest, FirstDriversWithMetadataBeside) {
 TEST(OusterPacketsTest, MetadataOfTheOtherSensorIsNotTaken) {
   const TempDir folder;
   auto messages = ouster_messages(false, kOusterShapes[2], true);
-  messages.push_back({"/rear/metadata", kBegin, text_message(false, ouster_metadata(kOusterShapes[0]))});
+  messages.push_back({"/rear/metadata", kFirstPacketStamp, text_message(false, ouster_metadata(kOusterShapes[0]))});
   test::Topics topics{{"/rear/metadata", "std_msgs/msg/String"}};
   for (const auto& topic : ouster_topics("ouster_ros", true)) topics.emplace_back(topic.name, topic.full_type(false));
   expect_frame(*open_scan_source(folder.write("o.mcap", test::mcap_bytes(topics, messages, {}))), kOusterShapes[2]);
@@ -195,7 +196,7 @@ TEST(PacketTopicsTest, CloudsAreTakenBeforePackets) {
 TEST(PacketTopicsTest, SeveralOrNoneAreListed) {
   const TempDir folder;
   auto messages = velodyne_scans(false);
-  messages.push_back({"/rear/packets", kBegin, messages[0].bytes});
+  messages.push_back({"/rear/packets", kFirstPacketStamp, messages[0].bytes});
   const std::string type = "velodyne_msgs/msg/VelodyneScan";
   const auto two =
       folder.write("two.mcap", test::mcap_bytes({{"/velodyne_packets", type}, {"/rear/packets", type}}, messages, {}));

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Cross-compiles the core and its tests for 64-bit ARM and runs them in qemu's user mode: ctest's arguments. Half an
-# hour. Debian's packages for arm64 stand beside those of the machine.
+# Cross-compiles the core and its tests for 64-bit ARM and runs them in qemu's user mode: ctest's arguments. A
+# quarter of an hour. Debian's packages for arm64 stand beside those of the machine.
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 

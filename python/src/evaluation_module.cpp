@@ -26,8 +26,7 @@ void add_evaluation(py::module_& module) {
       py::arg("truth"), py::arg("estimate"),
       "Errors of poses (N, 4, 4) or (N, 3, 4) of the same sensor at the same times: a dict with figures as in "
       "metrics.json. t_rel_pct and r_rel_deg_per_100m: over segments of 100 to 800 m, of paths below 150 m over "
-      "shorter "
-      "ones; None where nothing moved.");
+      "shorter ones; None where nothing moved.");
 }
 
 }  // namespace rilo::python

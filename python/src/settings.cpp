@@ -59,24 +59,9 @@ std::vector<std::string> texts_of(const py::object& settings) {
   return texts;
 }
 
-// Errors name the argument of Python where the command's name its option.
-OdometryConfig with_texts(const OdometryConfig& base, const std::vector<std::string>& texts,
-                          const std::string& argument) {
-  const std::string option = "--set";
-  try {
-    return with_overrides(base, texts);
-  } catch (const ConfigError& error) {
-    IoProblem problem = error.problem();
-    const std::string place = problem.file.string();
-    if (place.starts_with(option)) problem.file = argument + place.substr(option.size());
-    if (problem.remedy.starts_with("Example: --set ")) problem.remedy.erase(9, option.size() + 1);
-    throw ConfigError(std::move(problem));
-  }
-}
-
 OdometryConfig base_of(const py::object& config) {
   if (config.is_none()) return {};
-  if (py::isinstance<py::dict>(config)) return with_texts({}, texts_of(config), "config");
+  if (py::isinstance<py::dict>(config)) return with_overrides({}, texts_of(config), "config");
   if (py::hasattr(config, "__fspath__")) return load_config(config.cast<std::filesystem::path>());
   if (!py::isinstance<py::str>(config)) reject("config", config, "a dict, YAML text or the path of a YAML file");
   const auto text = config.cast<std::string>();
@@ -87,7 +72,7 @@ OdometryConfig base_of(const py::object& config) {
 }  // namespace
 
 OdometryConfig config_of(const py::object& config, const py::object& settings) {
-  return with_texts(base_of(config), texts_of(settings), "settings");
+  return with_overrides(base_of(config), texts_of(settings), "settings");
 }
 
 }  // namespace rilo::python

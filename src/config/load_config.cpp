@@ -103,21 +103,22 @@ OdometryConfig load_config(const std::filesystem::path& file, const OdometryConf
   return parse_config(text, file.string(), base);
 }
 
-OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std::string>& overrides) {
+OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std::string>& overrides,
+                              const std::string& origin) {
   OdometryConfig config = base;
   const ConfigKeys keys = odometry_keys(config);
   for (const std::string& text : overrides) {
-    const Place place{"--set " + text.substr(0, detail::kLongestQuote), ""};
+    const Place place{origin + " " + text.substr(0, detail::kLongestQuote), ""};
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
-      throw ConfigError({place.file, "", "there is no \"=\"", "key=value", "Example: --set icp.max_iterations=20"});
+      throw ConfigError({place.file, "", "there is no \"=\"", "key=value", "Example: icp.max_iterations=20"});
     }
     const std::string name = text.substr(0, equals);
     const ConfigKey* key = keys.find(name);
     if (key == nullptr) refuse_key(keys, name, place);
     set_key(*key, text.substr(equals + 1), place);
   }
-  if (!overrides.empty()) check_together(config, "--set");
+  if (!overrides.empty()) check_together(config, origin);
   return config;
 }
 

@@ -72,7 +72,7 @@ class InitialPoseStage {
   bool suspicious(double score, double residual_rms_m) const;
 
   /// Where on the path of `predicted` a sweep may have been taken, the best places first (at most three): the maxima of
-  /// its score on `map` from two periods `dt_s` back to twelve on.
+  /// its score on `map` from eight periods `dt_s` back to twelve on.
   std::vector<SE3> places_on_path(const TimedCloud& source, const MotionState& predicted, double dt_s,
                                   const LocalMap& map);
 
@@ -105,7 +105,7 @@ class InitialPoseStage {
   Search search(const Situation& situation, bool doubt);
   void consider(const Situation& situation, const SE3& T, ScoredPose& best);
   void try_from(const Situation& situation, const SE3& start, Search& search);
-  /// Score of a candidate: on the sweep compensated for `twist`; with all points in the single case, where the
+  /// Score of a candidate: on the sweep compensated for `twist`; with more points in the single case, where the
   /// candidates differ by few of them.
   double candidate_score(const Situation& situation, const SE3& T, const Vector6d& twist);
   DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points);

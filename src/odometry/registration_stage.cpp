@@ -132,10 +132,11 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
     places.push_back({place, parts_.tracker.implied_twist(place)});
   }
   std::vector<SampleFit> fits(places.size());
-  for_each_index(places.size(), [&](std::size_t i) { fits[i] = fit_of(sample, places[i]); });
+  for_each_index(places.size(), [&](std::size_t i) {
+    fits[i] = fit_of(sample, places[i], or_present(of_first_sweep(places[i].twist)));
+  });
   const double least =
-      settled(found) ? kWorthTrying * fit_of(sample, found.icp.state, found.map ? *found.map : parts_.map.map()).quality
-                     : 0.0;
+      settled(found) ? kWorthTrying * fit_of(sample, found.icp.state, or_present(found.map)).quality : 0.0;
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SampleFit& a, const SampleFit& b) { return a.quality > b.quality; });
   std::vector<MotionState> starts = {found.icp.state};
@@ -149,11 +150,6 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
   }
   starts.erase(starts.begin());
   return starts;
-}
-
-RegistrationStage::SampleFit RegistrationStage::fit_of(const TimedCloud& sample, const MotionState& start) const {
-  const std::optional<LocalMap> compensated = of_first_sweep(start.twist);
-  return fit_of(sample, start, compensated ? *compensated : parts_.map.map());
 }
 
 RegistrationStage::SampleFit RegistrationStage::fit_of(const TimedCloud& sample, const MotionState& start,
@@ -174,6 +170,11 @@ std::optional<LocalMap> RegistrationStage::of_first_sweep(const Vector6d& twist)
   return parts_.map.first_compensated(twist, parts_.prepared.scene_range_m, parts_.pose_by_elevation);
 }
 
+/// That map, or the present one where the first sweep cannot be compensated.
+const LocalMap& RegistrationStage::or_present(const std::optional<LocalMap>& compensated) const {
+  return compensated ? *compensated : parts_.map.map();
+}
+
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the
 /// second one implies, which the registration refines.
 Registration RegistrationStage::second_sweep(const MotionState& start, const MotionPrior& first_prior,
@@ -186,14 +187,13 @@ Registration RegistrationStage::second_sweep(const MotionState& start, const Mot
     // Each round starts nearer.
     const double sigma_m = std::max(std::ldexp(parts_.sigma_th_m, -round), parts_.config.threshold.floor_m);
     found.map = of_first_sweep(found.icp.state.twist);
-    const LocalMap& map = found.map ? *found.map : parts_.map.map();
     const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
-    found.icp = adaptive_icp(parts_.prepared.source, map, found.icp.state, prior, sigma_m, parts_.config.icp);
+    found.icp =
+        adaptive_icp(parts_.prepared.source, or_present(found.map), found.icp.state, prior, sigma_m, parts_.config.icp);
     iterations += found.icp.iterations;
   }
   found.icp.iterations = iterations;
-  const LocalMap& map = found.map ? *found.map : parts_.map.map();
-  found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, map);
+  found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, or_present(found.map));
   return found;
 }
 

@@ -19,8 +19,8 @@ namespace rilo {
 struct Registration {
   IcpResult icp;
   SE3 T_init = SE3::Identity();  ///< initial pose of the registration that was kept
-  std::optional<LocalMap> map;   ///< second sweep of a map: the first one, compensated with the velocity found
-  double score = 0;              ///< map score at the registered pose
+  std::optional<LocalMap> map;  ///< second sweep of a map: the first one, compensated with the velocity found, if timed
+  double score = 0;             ///< map score at the registered pose
 };
 
 /// Registers one sweep; refers to the state of the odometry, which outlives it.
@@ -48,6 +48,7 @@ class RegistrationStage {
   Registration to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m) const;
   Registration second_sweep(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
   std::optional<LocalMap> of_first_sweep(const Vector6d& twist) const;
+  const LocalMap& or_present(const std::optional<LocalMap>& compensated) const;
   void try_from(const MotionState& start, int rounds, Registration& found) const;
   void try_places_on_path(const MotionState& predicted, Registration& found) const;
   /// Where a sample of the second sweep comes to rest from a start, and how well it fits there.
@@ -55,7 +56,6 @@ class RegistrationStage {
     SE3 T_odom_lidar = SE3::Identity();
     double quality = 0;
   };
-  SampleFit fit_of(const TimedCloud& sample, const MotionState& start) const;
   SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map) const;
   std::vector<MotionState> other_second_starts(const Registration& found) const;
 

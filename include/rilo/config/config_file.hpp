@@ -26,8 +26,10 @@ OdometryConfig load_config(const std::filesystem::path& file, const OdometryConf
 OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base = {});
 
 /// Applies "key=value" in turn, e.g. "icp.max_iterations=20"; values that contradict each other are found at the end.
+/// `origin` names in messages where they come from.
 /// @throws ConfigError
-OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std::string>& overrides);
+OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std::string>& overrides,
+                              const std::string& origin = "--set");
 
 /// YAML with all keys, their units, ranges and meanings, in the order of odometry_keys. Loading it gives exactly
 /// `config`.

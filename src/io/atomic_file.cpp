@@ -15,6 +15,7 @@ namespace rilo {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::string_view kTemporaryEnd = ".tmp";
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 
 std::string remedy_for(int error_number) {
@@ -54,7 +55,22 @@ fs::path resolved(const fs::path& target) {
 
 fs::path temporary_name(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
-  return target.parent_path() / fmt::format(".{}.{}-{}.tmp", target.filename().string(), ::getpid(), counter++);
+  return target.parent_path() /
+         fmt::format(".{}.{}-{}{}", target.filename().string(), ::getpid(), counter++, kTemporaryEnd);
+}
+
+std::string_view digits_off(std::string_view& text) {
+  const std::size_t others = text.find_last_not_of("0123456789");
+  const std::size_t kept = others == std::string_view::npos ? 0 : others + 1;
+  const std::string_view digits = text.substr(kept);
+  text = text.substr(0, kept);
+  return digits;
+}
+
+bool cut_end(std::string_view& text, std::string_view end) {
+  if (text.size() < end.size() || text.substr(text.size() - end.size()) != end) return false;
+  text.remove_suffix(end.size());
+  return true;
 }
 
 // Without a name, so that nothing is left when the program is killed. -1 where there are no such files; a name can be
@@ -118,18 +134,19 @@ void AtomicFile::commit() {
   if (::fsync(descriptor_) != 0) fail("cannot write", errno);
   if (temporary_.empty()) give_name();
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write", errno);
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the finished file in place", errno);
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    fail("cannot put the finished file in place", errno);
+  }
   temporary_.clear();
   sync_folder(target_);
 }
 
-// A link cannot take the place of another file, a rename can.
+// A link cannot take the place of another file, a rename can: only then a second name is needed.
 void AtomicFile::give_name() {
   const fs::path file = temporary();
-  for (;;) {
-    const fs::path name = temporary_name(target_);
+  for (fs::path name = target_;; name = temporary_name(target_)) {
     if (::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
-      temporary_ = name;
+      if (name != target_) temporary_ = name;
       return;
     }
     if (errno != EEXIST) fail("cannot put the finished file in place", errno);
@@ -162,6 +179,13 @@ void AtomicFile::fail(const std::string& action, int error_number) {
   discard();
   throw IoError(
       {target_, "", action + ": " + std::generic_category().message(error_number), "", remedy_for(error_number)});
+}
+
+std::optional<std::string> name_of_unfinished(std::string_view name) {
+  if (name.empty() || name.front() != '.' || !cut_end(name, kTemporaryEnd)) return std::nullopt;
+  if (digits_off(name).empty() || !cut_end(name, "-")) return std::nullopt;
+  if (digits_off(name).empty() || !cut_end(name, ".") || name.size() < 2) return std::nullopt;
+  return std::string(name.substr(1));
 }
 
 void write_atomically(const fs::path& target, std::string_view bytes) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -48,6 +49,9 @@ class AtomicFile {
   std::string buffer_;
   std::uint64_t flushed_ = 0;
 };
+
+/// The file that a temporary file of this name was to become ("a.txt" for ".a.txt.123-0.tmp"); none for other names.
+std::optional<std::string> name_of_unfinished(std::string_view name);
 
 /// The whole file in one call.
 void write_atomically(const std::filesystem::path& target, std::string_view bytes);

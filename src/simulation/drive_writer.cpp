@@ -27,8 +27,6 @@ namespace fs = std::filesystem;
   throw std::runtime_error(path.string() + ": " + what + ": " + reason);
 }
 
-constexpr std::string_view kTemporary = ".tmp";  // of earlier versions, killed
-
 void write_floats(const fs::path& path, const std::vector<float>& values) {
   write_atomically(path, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
 }
@@ -55,8 +53,8 @@ void prepare_folder(const fs::path& folder) {
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     const fs::path& path = it->path();
     if (path.filename() == kLock) continue;
-    const fs::path name = path.extension() == kTemporary ? path.stem() : path.filename();
-    if (kOurs.count(name.string()) == 0) {
+    const std::string name = path.filename().string();
+    if (kOurs.count(name_of_unfinished(name).value_or(name)) == 0) {
       throw std::runtime_error(path.string() + ": is not part of a simulated drive; choose an empty folder");
     }
     found.push_back(path);

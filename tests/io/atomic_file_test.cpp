@@ -121,6 +121,15 @@ TEST(AtomicFileTest, AKilledWriterLeavesNothingBehind) {
   EXPECT_EQ(files_in(folder.path()), 0U);
 }
 
+TEST(AtomicFileTest, AnUnfinishedFileTellsWhatItWasToBecome) {
+  EXPECT_EQ(name_of_unfinished(".poses.txt.6732-27.tmp"), "poses.txt");
+  EXPECT_EQ(name_of_unfinished(".a.1-0.tmp"), "a");
+  for (const char* other : {"", ".", ".tmp", ".1-0.tmp", "..1-0.tmp", "a.1-0.tmp", ".a.1-0", ".a.1-.tmp", ".a.-0.tmp",
+                            ".a1-0.tmp", ".a.x1-0.tmp", ".a.1.0.tmp", "poses.txt.tmp", "poses.txt"}) {
+    EXPECT_FALSE(name_of_unfinished(other)) << other;
+  }
+}
+
 // A limit on the size of files stands in for a full disk. In a child process, since the limit stays.
 TEST(AtomicFileTest, FullDiskLeavesNothingBehind) {
   const TempDir folder;

@@ -95,7 +95,6 @@ TEST_F(DriveWriterTest, RawDriveCanBeReadBack) {
   EXPECT_THAT(text("meta.json"), HasSubstr("\"deskewed\": false"));
   EXPECT_THAT(text("meta.json"), HasSubstr("\"rate_hz\": 10,"));
   EXPECT_THAT(text("meta.json"), HasSubstr("\"frames\": 3,"));
-  EXPECT_FALSE(fs::exists(folder_ / "meta.json.tmp"));
   EXPECT_NEAR(summary.path_m, drive.path().distance_m(7.25) - drive.path().distance_m(7.05), 0.03);
 }
 
@@ -141,11 +140,11 @@ TEST_F(DriveWriterTest, LeavesOtherPeoplesFilesAlone) {
 
 TEST_F(DriveWriterTest, TakesAwayWhatAKilledOneLeftButNotALock) {
   fs::create_directories(folder_ / "velodyne");
-  std::ofstream(folder_ / "velodyne" / "000007.bin.tmp") << "half";
-  std::ofstream(folder_ / "poses.txt.tmp") << "half";
+  std::ofstream(folder_ / "velodyne" / ".000007.bin.6732-8.tmp") << "half";
+  std::ofstream(folder_ / ".poses.txt.6732-27.tmp") << "half";
   std::ofstream(folder_ / ".rilo.lock") << "held";
   write_drive(DriveSimulator(config(1, true)), folder_);
-  EXPECT_FALSE(fs::exists(folder_ / "poses.txt.tmp"));
+  EXPECT_FALSE(fs::exists(folder_ / ".poses.txt.6732-27.tmp"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "velodyne"), fs::directory_iterator()), 1);
   EXPECT_EQ(text(".rilo.lock"), "held");
 }

@@ -1,26 +1,19 @@
 // config/default.yaml and docs/configuration.md say what the program does.
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
-#include <gtest/gtest.h>
-
+#include "io/io_test_util.hpp"
 #include "rilo/config/config_file.hpp"
 
 namespace rilo {
 namespace {
 
+using test::slurp;
+
 const std::filesystem::path kSource = RILO_SOURCE_DIR;
 
-std::string read_all(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  EXPECT_TRUE(stream.good()) << file;
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 TEST(CommittedFiles, default_yaml_is_the_dump_of_the_defaults) {
-  EXPECT_EQ(read_all(kSource / "config/default.yaml"), dump_config(OdometryConfig{}))
+  EXPECT_EQ(slurp(kSource / "config/default.yaml"), dump_config(OdometryConfig{}))
       << "renew it: rilo config --dump > config/default.yaml";
 }
 
@@ -29,7 +22,7 @@ TEST(CommittedFiles, default_yaml_loads_as_the_defaults) {
 }
 
 TEST(CommittedFiles, the_table_of_the_documentation_is_the_printed_one) {
-  const std::string page = read_all(kSource / "docs/configuration.md");
+  const std::string page = slurp(kSource / "docs/configuration.md");
   const std::string begin = "<!-- keys: begin -->\n";
   const std::string end = "<!-- keys: end -->\n";
   const std::size_t first = page.find(begin);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <initializer_list>
 #include <iterator>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -84,6 +85,34 @@ inline void expect_io_error(const std::function<void()>& action, std::initialize
   ADD_FAILURE() << "no IoError";
 }
 
+/// Hostile bytes: `read` must end well or with an IoError that says something. True when it ended well.
+inline bool reads_or_refuses(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const IoError& error) {
+    EXPECT_GT(std::string(error.what()).size(), 20U);
+    return false;
+  }
+  return true;
+}
+
+/// `read` must refuse `whole` cut off at every byte, with a message that has all `parts`.
+inline void expect_refused_cuts(const std::string& whole, const std::function<void(const std::string&)>& read,
+                                std::initializer_list<std::string_view> parts) {
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    expect_io_error([&] { read(whole.substr(0, size)); }, parts);
+  }
+}
+
+/// Cut off in every third `round`, and `turned` bytes turned over.
+inline std::string damaged(std::string bytes, int round, int turned, std::mt19937& random) {
+  if (round % 3 == 0) bytes.resize(random() % bytes.size());
+  for (int k = 0; k < turned && !bytes.empty(); ++k) {
+    bytes[random() % bytes.size()] = static_cast<char>(random());
+  }
+  return bytes;
+}
+
 /// Five points with all columns, none of them round in binary.
 inline Sweep small_sweep() {
   Sweep sweep;
@@ -105,6 +134,14 @@ inline void expect_same(const RawCloud& cloud, const Sweep& sweep, bool with_tim
   EXPECT_EQ(cloud.times->field, "time");
   EXPECT_EQ(cloud.times->type, ScalarType::kFloat32);
   EXPECT_EQ(cloud.times->floats, std::vector<double>(sweep.times_s.begin(), sweep.times_s.end()));
+}
+
+inline void expect_same_sweep(const Sweep& sweep, const Sweep& expected) {
+  EXPECT_EQ(sweep.stamp_ns, expected.stamp_ns);
+  EXPECT_EQ(sweep.points, expected.points);
+  EXPECT_EQ(sweep.times_s, expected.times_s);
+  EXPECT_EQ(sweep.intensities, expected.intensities);
+  EXPECT_EQ(sweep.rings, expected.rings);
 }
 
 /// KITTI's two-point sweep, known by the first point's x.

@@ -80,15 +80,18 @@ TEST(StampTest, RoundTripOfRandomStamps) {
   }
 }
 
+void expect_near(const std::vector<SE3>& poses, const Trajectory& trajectory, double tolerance) {
+  ASSERT_EQ(poses.size(), trajectory.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_LT((poses[i].matrix() - trajectory[i].T_odom_lidar.matrix()).cwiseAbs().maxCoeff(), tolerance);
+  }
+}
+
 TEST(PoseFileTest, KittiRoundTrip) {
   const TempDir folder;
   const Trajectory trajectory = some_trajectory();
   write_kitti_poses(folder / "p.txt", trajectory);
-  const auto poses = read_kitti_poses(folder / "p.txt");
-  ASSERT_EQ(poses.size(), trajectory.size());
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    EXPECT_LT((poses[i].matrix() - trajectory[i].T_odom_lidar.matrix()).cwiseAbs().maxCoeff(), 1e-9);
-  }
+  expect_near(read_kitti_poses(folder / "p.txt"), trajectory, 1e-9);
   EXPECT_EQ(test::files_in(folder.path()), 1U);
 }
 
@@ -123,11 +126,7 @@ TEST(PoseFileTest, CameraFrameThereAndBack) {
   twist << 1.2, -1.2, 1.2, -0.01, -0.05, -0.29;
   const SE3 T_cam_lidar = se3_exp(twist);
   write_kitti_poses_camera(folder / "c.txt", trajectory, T_cam_lidar);
-  const auto poses = camera_to_lidar(read_kitti_poses(folder / "c.txt"), T_cam_lidar);
-  ASSERT_EQ(poses.size(), trajectory.size());
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    EXPECT_LT((poses[i].matrix() - trajectory[i].T_odom_lidar.matrix()).cwiseAbs().maxCoeff(), 1e-8);
-  }
+  expect_near(camera_to_lidar(read_kitti_poses(folder / "c.txt"), T_cam_lidar), trajectory, 1e-8);
 }
 
 TEST(PoseFileTest, CommentsBlankLinesAndCarriageReturns) {

@@ -134,12 +134,22 @@ std::string value_of(const StatusMessage& status, const std::string& wanted) {
   return "none";
 }
 
-TEST(LiveOdometry, PosesAreThoseOfTheLibrary) {
+// A node that runs with what at_once() says.
+class RunningNode : public testing::Test {
+ protected:
+  RunningNode() { odometry.start(); }
+
+  void push(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) odometry.push(message(i));
+    ASSERT_TRUE(output.wait_poses(end));
+  }
+
   Output output;
-  LiveOdometry odometry(at_once(), "/points", output);
-  odometry.start();
-  for (std::size_t i = 0; i < kSweeps; ++i) odometry.push(message(i));
-  ASSERT_TRUE(output.wait_poses(kSweeps));
+  LiveOdometry odometry{at_once(), "/points", output};
+};
+
+TEST_F(RunningNode, PosesAreThoseOfTheLibrary) {
+  push(0, kSweeps);
   odometry.stop();
   const std::vector<SE3> expected = expected_poses(kSweeps);
   ASSERT_EQ(output.transforms.size(), kSweeps);
@@ -233,16 +243,11 @@ TEST(LiveOdometry, StoppingEndsTheWaitForATransform) {
   EXPECT_TRUE(output.odometry.empty());
 }
 
-TEST(LiveOdometry, SetPoseMovesWhatFollowsAndThePath) {
-  Output output;
-  LiveOdometry odometry(at_once(), "/points", output);
-  odometry.start();
-  for (std::size_t i = 0; i < 3; ++i) odometry.push(message(i));
-  ASSERT_TRUE(output.wait_poses(3));
+TEST_F(RunningNode, SetPoseMovesWhatFollowsAndThePath) {
+  push(0, 3);
   const Eigen::Quaterniond turned(Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitZ()));
   EXPECT_EQ(odometry.set_pose({100, -50, 3}, turned), "");
-  odometry.push(message(3));
-  ASSERT_TRUE(output.wait_poses(4));
+  push(3, 4);
   const std::vector<SE3> poses = expected_poses(4);
   SE3 wanted = SE3::Identity();
   wanted.linear() = turned.toRotationMatrix();
@@ -257,22 +262,16 @@ TEST(LiveOdometry, SetPoseMovesWhatFollowsAndThePath) {
   EXPECT_LT((odometry.path().poses[3].pose.position - Eigen::Vector3d(1, 2, 3)).norm(), 1e-9);
 }
 
-TEST(LiveOdometry, KeysOfTheConfigurationCountFromTheNextResetOn) {
-  Output output;
-  LiveOdometry odometry(at_once(), "/points", output);
-  odometry.start();
-  for (std::size_t i = 0; i < 3; ++i) odometry.push(message(i));
-  ASSERT_TRUE(output.wait_poses(3));
+TEST_F(RunningNode, KeysOfTheConfigurationCountFromTheNextResetOn) {
+  push(0, 3);
   EXPECT_TRUE(odometry.set_parameters({{"preprocess.source_points", std::int64_t{500}}, {"publish_tf", true}}));
   EXPECT_FALSE(odometry.set_parameters({{"publish_tf", false}}));
   EXPECT_THROW(odometry.set_parameters({{"publish_tf", true}, {"queue", std::int64_t{3}}}), std::invalid_argument);
   EXPECT_THROW(odometry.set_parameters({{"icp.max_iterations", std::int64_t{-3}}}), std::invalid_argument);
-  odometry.push(message(3));
-  ASSERT_TRUE(output.wait_poses(4));
+  push(3, 4);
   expect_pose(output.odometry[3].pose, expected_poses(4)[3]);
   odometry.reset();
-  for (std::size_t i = 4; i < 7; ++i) odometry.push(message(i));
-  ASSERT_TRUE(output.wait_poses(7));
+  push(4, 7);
   EXPECT_EQ(output.transforms.size(), 3U);
   OdometryConfig config;
   config.preprocess.source_points = 500;
@@ -286,10 +285,7 @@ TEST(LiveOdometry, KeysOfTheConfigurationCountFromTheNextResetOn) {
   EXPECT_EQ(odometry.path().poses.size(), 3U);
 }
 
-TEST(LiveOdometry, AJumpBackInTimeStartsAnew) {
-  Output output;
-  LiveOdometry odometry(at_once(), "/points", output);
-  odometry.start();
+TEST_F(RunningNode, AJumpBackInTimeStartsAnew) {
   auto later = std::make_shared<Sweep>(drive()[3]);
   later->stamp_ns += 60'000'000'000;
   odometry.push(message_of(later));
@@ -302,10 +298,7 @@ TEST(LiveOdometry, AJumpBackInTimeStartsAnew) {
   EXPECT_THAT(output.warnings.front(), HasSubstr("back in time"));
 }
 
-TEST(LiveOdometry, AMessageThatCannotBeReadIsLeftOut) {
-  Output output;
-  LiveOdometry odometry(at_once(), "/points", output);
-  odometry.start();
+TEST_F(RunningNode, AMessageThatCannotBeReadIsLeftOut) {
   LiveQueue::Message broken = message(1);
   std::get<LiveCloud>(broken.content).message.width *= 2;
   odometry.push(message(0));
@@ -323,10 +316,7 @@ TEST(LiveOdometry, AMessageThatCannotBeReadIsLeftOut) {
 }
 
 // rclcpp::Time throws on times before 1970.
-TEST(LiveOdometry, NoStampIsNegative) {
-  Output output;
-  LiveOdometry odometry(at_once(), "/points", output);
-  odometry.start();
+TEST_F(RunningNode, NoStampIsNegative) {
   auto early = std::make_shared<Sweep>(drive()[0]);
   early->stamp_ns = -3'000'000'000;
   odometry.push(message_of(early));
@@ -337,13 +327,9 @@ TEST(LiveOdometry, NoStampIsNegative) {
   EXPECT_EQ(odometry.path().poses[0].stamp.seconds, 0U);
 }
 
-TEST(LiveOdometry, TheMapIsSaved) {
+TEST_F(RunningNode, TheMapIsSaved) {
   const test::TempDir folder;
-  Output output;
-  LiveOdometry odometry(at_once(), "/points", output);
-  odometry.start();
-  for (std::size_t i = 0; i < 3; ++i) odometry.push(message(i));
-  ASSERT_TRUE(output.wait_poses(3));
+  push(0, 3);
   const auto file = folder.path() / "map.ply";
   const LiveOdometry::SavedMap saved = odometry.save_map(file.string());
   EXPECT_TRUE(saved.success) << saved.message;

@@ -28,6 +28,12 @@ RunRecord straight_run() {
   return run;
 }
 
+void write_run(const TempDir& folder, const RunMetrics& metrics) {
+  OutputRequest request;
+  request.out = folder.path();
+  write_outputs(request, straight_run(), metrics);
+}
+
 std::string refusal(const std::filesystem::path& folder) {
   try {
     read_saved_run(folder);
@@ -40,9 +46,7 @@ std::string refusal(const std::filesystem::path& folder) {
 TEST(SavedRun, IsWhatWasWritten) {
   const TempDir folder;
   const RunRecord run = straight_run();
-  OutputRequest request;
-  request.out = folder.path();
-  write_outputs(request, run, run_metrics(run));
+  write_run(folder, run_metrics(run));
   ASSERT_TRUE(is_saved_run(folder.path()));
   const SavedRun saved = read_saved_run(folder.path());
   EXPECT_EQ(to_json(saved.metrics), to_json(run_metrics(run)));
@@ -57,12 +61,9 @@ TEST(SavedRun, IsWhatWasWritten) {
 TEST(SavedRun, FindsTheDataFromAnotherFolder) {
   const TempDir folder;
   const auto write = [&](const std::string& data_path) {
-    OutputRequest request;
-    request.out = folder.path();
-    const RunRecord run = straight_run();
-    RunMetrics metrics = run_metrics(run);
+    RunMetrics metrics = run_metrics(straight_run());
     metrics.data_path = data_path;
-    write_outputs(request, run, metrics);
+    write_run(folder, metrics);
   };
   write(folder / "gone");
   EXPECT_EQ(read_saved_run(folder.path()).record.data, "drive");  // as typed
@@ -73,10 +74,7 @@ TEST(SavedRun, FindsTheDataFromAnotherFolder) {
 
 TEST(SavedRun, OfSeveralMapsTheOneNamedSoElseTheLargest) {
   const TempDir folder;
-  const RunRecord run = straight_run();
-  OutputRequest request;
-  request.out = folder.path();
-  write_outputs(request, run, run_metrics(run));
+  write_run(folder, run_metrics(straight_run()));
   const auto ply = [](int points) {
     std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(points) +
                        "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";

@@ -345,18 +345,12 @@ TEST(PacketSourceTest, HostileBytes) {
     const std::string whole =
         velodyne ? velodyne_drive(0x22, 2.5).text() : ouster_drive(kOusterShapes[0], 100, 400).text();
     for (int round = 0; round < 60; ++round) {
-      std::string bytes = whole;
-      if (round % 3 == 0) bytes.resize(random() % bytes.size());
-      for (int k = 0; k < 5 * (round % 5) && !bytes.empty(); ++k) {
-        bytes[random() % bytes.size()] = static_cast<char>(random());
-      }
-      try {
-        for (const Sweep& sweep : sweeps_of(*open_scan_source(folder.write("o.pcap", bytes)))) {
+      const auto file = folder.write("o.pcap", test::damaged(whole, round, 5 * (round % 5), random));
+      test::reads_or_refuses([&] {
+        for (const Sweep& sweep : sweeps_of(*open_scan_source(file))) {
           EXPECT_EQ(sweep.times_s.size(), sweep.points.size());
         }
-      } catch (const IoError& error) {
-        EXPECT_GT(std::string(error.what()).size(), 20U);
-      }
+      });
     }
   }
 }
@@ -370,11 +364,7 @@ TEST(PacketSourceTest, OusterMetadataTurnedOver) {
     std::string json = whole;
     for (int k = 0; k < 1 + round % 3; ++k) json[random() % json.size()] = static_cast<char>(' ' + random() % 90);
     folder.write("o.json", json);
-    try {
-      sweeps_of(*open_scan_source(file));
-    } catch (const IoError& error) {
-      EXPECT_GT(std::string(error.what()).size(), 20U);
-    }
+    test::reads_or_refuses([&] { sweeps_of(*open_scan_source(file)); });
   }
 }
 

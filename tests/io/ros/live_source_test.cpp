@@ -51,10 +51,7 @@ TEST(LiveSource, SweepsAreThoseOfARecording) {
       const auto expected = recording->next();
       const auto sweep = live->next();
       ASSERT_TRUE(expected && sweep);
-      EXPECT_EQ(sweep->stamp_ns, expected->stamp_ns);
-      EXPECT_EQ(sweep->points, expected->points);
-      EXPECT_EQ(sweep->times_s, expected->times_s);
-      EXPECT_EQ(sweep->rings, expected->rings);
+      test::expect_same_sweep(*sweep, *expected);
       EXPECT_EQ(live->current_index(), i);
     }
     EXPECT_EQ(live->info().period_s, recording->info().period_s);

@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+from contextlib import contextmanager
 from types import SimpleNamespace
 
 import numpy as np
@@ -83,6 +84,13 @@ def connect(topics):
     wait_for(lambda: topics.points.get_num_connections() > 0, "the node's subscription")
 
 
+@contextmanager
+def connected_node(topics, parameters=AT_ONCE):
+    with running_node(parameters):
+        connect(topics)
+        yield
+
+
 def publish(topics, sweeps, done=None):
     """Publishes and waits until so many poses are there."""
     for sweep in sweeps:
@@ -148,8 +156,7 @@ def test_the_bag_that_a_run_leaves_is_read_by_ros(drive):
 
 
 def test_a_played_bag_gives_the_trajectory_of_an_offline_run(topics, drive):
-    with running_node({"queue": 0}):
-        connect(topics)
+    with connected_node(topics, {"queue": 0}):
         player = play(drive.bag, "-r", "3")
         try:
             messages = topics.odometry.wait(SWEEPS)
@@ -173,8 +180,7 @@ def test_a_played_bag_gives_the_trajectory_of_an_offline_run(topics, drive):
 
 
 def test_covariances_are_in_the_order_of_ros(topics, drive):
-    with running_node(AT_ONCE):
-        connect(topics)
+    with connected_node(topics):
         publish(topics, drive.sweeps[:6])
         message = topics.odometry.messages[-1]
     pose = np.reshape(message.pose.covariance, (6, 6))
@@ -193,8 +199,7 @@ def test_keys_of_the_configuration_and_a_file_are_taken(topics, drive, tmp_path)
     offline = run_offline(drive.bag, tmp_path / "out", "--config", config, "--set", "icp.max_iterations=7",
                           "--count", 6)
     assert np.abs(offline.poses - drive.offline.poses[:6]).max() > 1e-6
-    with running_node({"config": str(config), "icp": {"max_iterations": 7}, "queue": 0, "look_ahead": 0}):
-        connect(topics)
+    with connected_node(topics, {"config": str(config), "icp": {"max_iterations": 7}, "queue": 0, "look_ahead": 0}):
         publish(topics, drive.sweeps[:6])
     np.testing.assert_allclose(poses_of(topics.odometry.messages), offline.poses, rtol=0, atol=1e-9)
 
@@ -216,8 +221,7 @@ def test_wrong_parameters_end_the_node(ros, parameters, told):
 
 
 def test_reset_starts_anew_at_the_identity(topics, drive):
-    with running_node(AT_ONCE):
-        connect(topics)
+    with connected_node(topics):
         publish(topics, drive.sweeps[:5])
         assert rospy.ServiceProxy("/rilo/reset", Trigger)().success
         publish(topics, drive.sweeps[5:8], 8)
@@ -231,8 +235,7 @@ def test_set_pose_moves_what_follows_and_the_path(topics, drive):
     wanted = Pose()
     wanted.position.x, wanted.position.y, wanted.position.z = 100, -50, 3
     wanted.orientation.z, wanted.orientation.w = np.sin(0.6), np.cos(0.6)
-    with running_node(AT_ONCE):
-        connect(topics)
+    with connected_node(topics):
         publish(topics, drive.sweeps[:4])
         set_pose = rospy.ServiceProxy("/rilo/set_pose", SetPose)
         assert set_pose(wanted).success
@@ -257,8 +260,7 @@ def test_set_pose_moves_what_follows_and_the_path(topics, drive):
 
 
 def test_the_map_is_saved(topics, drive, tmp_path):
-    with running_node(AT_ONCE):
-        connect(topics)
+    with connected_node(topics):
         publish(topics, drive.sweeps[:4])
         save_map = rospy.ServiceProxy("/rilo/save_map", SaveMap)
         for name, counted in (("map.ply", "element vertex {}"), ("map.pcd", "POINTS {}")):
@@ -273,8 +275,7 @@ def test_the_map_is_saved(topics, drive, tmp_path):
 
 def test_a_queue_of_one_keeps_the_freshest_sweep(topics, drive):
     """While the transform is missing the node takes no further sweep: what comes meanwhile must be dropped."""
-    with running_node({"queue": 1, "look_ahead": 0, "base_frame": "base_link"}):
-        connect(topics)
+    with connected_node(topics, {"queue": 1, "look_ahead": 0, "base_frame": "base_link"}):
         for sweep in drive.sweeps[:10]:
             topics.points.publish(sweep)
         report = wait_figure(topics, "messages received", 10)
@@ -300,8 +301,7 @@ def test_a_message_that_cannot_be_read_is_reported_and_left_out(topics, drive):
     broken[0].fields = broken[0].fields[1:]
     broken[1].is_bigendian = True
     broken[2].data = broken[2].data[:50]
-    with running_node(AT_ONCE):
-        connect(topics)
+    with connected_node(topics):
         publish(topics, drive.sweeps[:2])
         for sweep in broken:
             topics.points.publish(sweep)
@@ -314,8 +314,7 @@ def test_a_message_that_cannot_be_read_is_reported_and_left_out(topics, drive):
 
 
 def test_a_jump_back_in_time_starts_anew(topics, drive):
-    with running_node(AT_ONCE):
-        connect(topics)
+    with connected_node(topics):
         publish(topics, drive.sweeps[12:15])
         publish(topics, drive.sweeps[:3], 6)
         report = wait_figure(topics, "sweeps registered", 6)
@@ -324,8 +323,7 @@ def test_a_jump_back_in_time_starts_anew(topics, drive):
 
 
 def test_tf_of_the_lidar(topics, drive):
-    with running_node(AT_ONCE):
-        connect(topics)
+    with connected_node(topics):
         topics.tf.wait_connected()
         publish(topics, drive.sweeps[:4])
         topics.tf.wait(4)
@@ -337,8 +335,7 @@ def test_tf_of_the_lidar(topics, drive):
 
 def test_tf_of_the_base_inverted_and_with_other_names(topics, drive):
     parameters = {"base_frame": "robot", "odom_frame": "lidar_odom", "base_to_lidar": EXTRINSIC, "invert_tf": True}
-    with running_node({**AT_ONCE, **parameters}):
-        connect(topics)
+    with connected_node(topics, {**AT_ONCE, **parameters}):
         topics.tf.wait_connected()
         publish(topics, drive.sweeps[:4])
         topics.tf.wait(4)
@@ -352,8 +349,7 @@ def test_tf_of_the_base_inverted_and_with_other_names(topics, drive):
 
 
 def test_without_tf(topics, drive):
-    with running_node({**AT_ONCE, "publish_tf": False}):
-        connect(topics)
+    with connected_node(topics, {**AT_ONCE, "publish_tf": False}):
         publish(topics, drive.sweeps[:2])
         wait_figure(topics, "sweeps registered", 2)
     assert not topics.tf.messages

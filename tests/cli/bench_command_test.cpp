@@ -1,6 +1,6 @@
 // rilo bench FILE.
 #include <csignal>
-#include <fstream>
+#include <set>
 #include <sys/types.h>
 
 #include <gmock/gmock.h>
@@ -35,9 +35,7 @@ TEST(BenchCommand, TwoSequencesTimesTwoConfigurations) {
       folder.write("plan.yaml", "sequences:\n" + sequence("one", shared_drive()) +
                                     sequence("short", shared_drive(), ", start: 2, count: 5") + kConfigurations);
   const Outcome bench = rilo_succeeds({"bench", plan, "--out", folder / "out", "--threads", "1"});
-  for (const char* part : {"Accuracy", "Effort", "Averages", "t_rel % pooled", "APE rmse m", "p99", "peak MiB"}) {
-    EXPECT_THAT(bench.out, HasSubstr(part));
-  }
+  expect_parts(bench.out, {"Accuracy", "Effort", "Averages", "t_rel % pooled", "APE rmse m", "p99", "peak MiB"});
   const json results = json_file(folder / "out" / "results.json");
   ASSERT_EQ(results["cells"].size(), 4U);
   EXPECT_EQ(results["cells_run"], 4);
@@ -212,23 +210,14 @@ TEST(BenchCommand, InterruptedItKeepsWhatIsFinished) {
   }
 }
 
-// The process of the cell that runs; 0: none.
-pid_t child_of(pid_t parent) {
-  const std::string number = std::to_string(parent);
-  std::ifstream children("/proc/" + number + "/task/" + number + "/children");
-  pid_t child = 0;
-  children >> child;
-  return child;
-}
-
 TEST(BenchCommand, ACellWhoseProcessIsKilledFailsAlone) {
   const TempDir folder;
   const auto plan = folder.write(
       "plan.yaml", "sequences:\n" + sequence("endless", long_folder(folder, 3000)) + sequence("quick", shared_drive()));
   CommandProcess bench({"bench", plan, "--out", folder / "out", "--threads", "1", "--quiet"});
-  pid_t child = 0;
-  ASSERT_TRUE(bench.wait_until([&] { return (child = child_of(bench.pid())) > 0; }));
-  ::kill(child, SIGKILL);
+  std::set<pid_t> cells;
+  ASSERT_TRUE(bench.wait_until([&] { return !(cells = children_of(bench.pid())).empty(); }));
+  ::kill(*cells.begin(), SIGKILL);
   const Outcome outcome = bench.wait();
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("signal 9"));

@@ -43,14 +43,6 @@ std::string lasting_tables(const fs::path& out, const std::string& format = "mar
   return rilo_succeeds({"bench", "show", out, "--no-times", "--format", format}).out;
 }
 
-std::set<pid_t> children_of(pid_t parent) {
-  const std::string number = std::to_string(parent);
-  std::ifstream stream("/proc/" + number + "/task/" + number + "/children");
-  std::set<pid_t> children;
-  for (pid_t child = 0; stream >> child;) children.insert(child);
-  return children;
-}
-
 TEST(BenchResume, SeveralAtATimeGiveTheTablesOfOneAtATime) {
   const TempDir folder;
   const auto plan = six_cells(folder, shared_drive(), 4);

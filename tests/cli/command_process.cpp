@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
@@ -99,8 +100,21 @@ Outcome rilo_fails(int exit_code, const std::vector<std::string>& arguments, con
   const std::string what = testing::PrintToString(arguments) + "\n" + outcome.err;
   EXPECT_EQ(outcome.exit_code, exit_code) << what << (outcome.signal != 0 ? "ended by a signal" : "");
   EXPECT_EQ(lines_with(outcome.err, "rilo: error: ").size(), 1U) << what;
-  for (const std::string& part : parts) EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " in " << what;
+  SCOPED_TRACE(what);
+  expect_parts(outcome.err, parts);
   return outcome;
+}
+
+void expect_parts(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+}
+
+std::set<pid_t> children_of(pid_t parent) {
+  const std::string number = std::to_string(parent);
+  std::ifstream stream("/proc/" + number + "/task/" + number + "/children");
+  std::set<pid_t> children;
+  for (pid_t child = 0; stream >> child;) children.insert(child);
+  return children;
 }
 
 std::vector<std::string> lines_of(const std::string& text) { return lines_with(text, ""); }

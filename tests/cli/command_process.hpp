@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <sys/types.h>
@@ -53,6 +54,12 @@ Outcome rilo_succeeds(const std::vector<std::string>& arguments);
 /// Runs the command, which must end with that code, with exactly one line
 /// `rilo: error: …` that has all `parts`.
 Outcome rilo_fails(int exit_code, const std::vector<std::string>& arguments, const std::vector<std::string>& parts);
+
+/// All `parts` occur in `text`.
+void expect_parts(const std::string& text, const std::vector<std::string>& parts);
+
+/// The processes that a process has started and that still run.
+std::set<pid_t> children_of(pid_t parent);
 
 /// Lines of `text` that begin with `start`.
 std::vector<std::string> lines_with(const std::string& text, std::string_view start);

@@ -1,6 +1,4 @@
 // rilo report.
-#include <fstream>
-
 #include <gmock/gmock.h>
 
 #include "cli/drives.hpp"
@@ -12,11 +10,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 namespace fs = std::filesystem;
-
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// Folder of a run over the shared drive, made once a process; for reading only.
 const fs::path& shared_run() {
@@ -35,6 +28,12 @@ fs::path copy_of_run(const TempDir& folder, const std::string& name) {
   return copy;
 }
 
+void change_metrics(const fs::path& run, const std::string& key, const nlohmann::json& value) {
+  nlohmann::json metrics = json_file(run / "metrics.json");
+  metrics[key] = value;
+  replace(run / "metrics.json", metrics.dump());
+}
+
 /// Data of the first comparison on the page.
 nlohmann::json comparison_of(const std::string& html) {
   const std::string open = "<script type=\"application/json\">";
@@ -51,7 +50,7 @@ TEST(ReportCommand, ComparesRunsAndPosesOfOthers) {
                                          "Peer=" + (shared_run() / "trajectory.tum").string(), "-o", page});
   EXPECT_EQ(outcome.out, page.string() + ": 3 runs, 0 experiments\n");
   EXPECT_EQ(outcome.err, "");
-  const std::string html = content(page);
+  const std::string html = slurp(page);
   EXPECT_THAT(html, HasSubstr("3 runs compared"));
   EXPECT_THAT(html, HasSubstr("</i>full</th>"));
   EXPECT_THAT(html, HasSubstr("</i>Plain &lt;1&gt;</th>"));
@@ -72,7 +71,7 @@ TEST(ReportCommand, ComparesRunsAndPosesOfOthers) {
 TEST(ReportCommand, ASingleRunIsThePageOfRun) {
   const TempDir folder;
   rilo_succeeds({"report", shared_run(), "-o", folder / "one.html"});
-  const std::string html = content(folder / "one.html");
+  const std::string html = slurp(folder / "one.html");
   EXPECT_THAT(html, Not(HasSubstr("class=\"comparison\"")));
   EXPECT_THAT(html, HasSubstr("data-chart=\"top\""));
   EXPECT_THAT(html, HasSubstr("Accuracy"));
@@ -81,9 +80,7 @@ TEST(ReportCommand, ASingleRunIsThePageOfRun) {
 TEST(ReportCommand, PartialResultsSaySo) {
   const TempDir folder;
   const fs::path interrupted = copy_of_run(folder, "interrupted");
-  nlohmann::json metrics = json_file(interrupted / "metrics.json");
-  metrics["interrupted"] = true;
-  replace(interrupted / "metrics.json", metrics.dump());
+  change_metrics(interrupted, "interrupted", true);
   const fs::path killed = folder / "killed";
   fs::create_directory(killed);
   replace(killed / "poses_lidar.partial.txt", kitti_row(0, 0, 0) + kitti_row(1, 0, 0) + "1 0 0 2 0 1");
@@ -91,7 +88,7 @@ TEST(ReportCommand, PartialResultsSaySo) {
   EXPECT_THAT(outcome.err, HasSubstr("interrupted: The run was interrupted"));
   EXPECT_THAT(outcome.err, HasSubstr("killed: this run was killed or is still running"));
   EXPECT_THAT(outcome.err, HasSubstr("the runs are over different sweeps"));
-  const std::string html = content(folder / "page.html");
+  const std::string html = slurp(folder / "page.html");
   EXPECT_THAT(html, HasSubstr("<b>interrupted:</b> The run was interrupted"));
   EXPECT_THAT(html, HasSubstr("with its first 2 poses"));
 }
@@ -99,27 +96,23 @@ TEST(ReportCommand, PartialResultsSaySo) {
 TEST(ReportCommand, FiguresOutliveTheTruth) {
   const TempDir folder;
   const fs::path moved = copy_of_run(folder, "moved");
-  nlohmann::json metrics = json_file(moved / "metrics.json");
-  metrics["data"] = (folder / "gone").string();
-  replace(moved / "metrics.json", metrics.dump());
+  change_metrics(moved, "data", (folder / "gone").string());
   const fs::path page = folder / "page.html";
   EXPECT_THAT(rilo_succeeds({"report", moved, "-o", page}).err, HasSubstr("are not where they were"));
-  EXPECT_THAT(content(page), Not(HasSubstr("against truth")));
+  EXPECT_THAT(slurp(page), Not(HasSubstr("against truth")));
   EXPECT_EQ(rilo_succeeds({"report", moved, "--gt", shared_drive() / "poses_mid.txt", "-o", page}).err, "");
-  EXPECT_THAT(content(page), HasSubstr("Trajectory against truth"));
+  EXPECT_THAT(slurp(page), HasSubstr("Trajectory against truth"));
   EXPECT_EQ(rilo_succeeds({"report", moved, "--gt", shared_drive(), "-o", page}).err, "");
-  EXPECT_THAT(content(page), HasSubstr("Trajectory against truth"));
+  EXPECT_THAT(slurp(page), HasSubstr("Trajectory against truth"));
 }
 
 TEST(ReportCommand, OtherSequencesAreGrouped) {
   const TempDir folder;
   const fs::path other = copy_of_run(folder, "other");
-  nlohmann::json metrics = json_file(other / "metrics.json");
-  metrics["data"] = (folder / "second").string();
-  replace(other / "metrics.json", metrics.dump());
+  change_metrics(other, "data", (folder / "second").string());
   const fs::path page = folder / "page.html";
   rilo_succeeds({"report", "a=" + shared_run().string(), "a=" + other.string(), "-o", page});
-  const std::string html = content(page);
+  const std::string html = slurp(page);
   EXPECT_THAT(html, HasSubstr("<h2>All sequences</h2>"));
   EXPECT_THAT(html, HasSubstr("<h2>second</h2>"));
   // Poses do not say which of the two they are of.
@@ -141,7 +134,7 @@ TEST(ReportCommand, PosesAlone) {
   const std::string exact = folder.write("exact.txt", truth);
   const std::string peer = folder.write("peer.txt", longer);
   rilo_succeeds({"report", exact, "Two percent=" + peer, "--gt", gt, "-o", folder / "page.html"});
-  const std::string html = content(folder / "page.html");
+  const std::string html = slurp(folder / "page.html");
   EXPECT_THAT(html, HasSubstr("</i>exact</th>"));
   EXPECT_THAT(html, HasSubstr("<td>2.0000</td>"));  // t_rel
   EXPECT_THAT(html, HasSubstr("<td>4.00</td>"));    // 200 m end 4 m too far
@@ -162,7 +155,7 @@ TEST(ReportCommand, ExperimentsWithSensitivity) {
                       cell("high", {"coarse.sigma=1.5"}, 3.0), cell("off", {"coarse.enabled=false"}, 4.0)};
   const std::string file = folder.write("results.json", results.dump());
   rilo_succeeds({"report", "Mine=" + folder.path().string(), "-o", folder / "page.html"});
-  const std::string html = content(folder / "page.html");
+  const std::string html = slurp(folder / "page.html");
   EXPECT_THAT(html, HasSubstr("<h2>Mine</h2>"));
   EXPECT_THAT(html, HasSubstr("4 of 5 cells are finished"));
   EXPECT_THAT(
@@ -187,7 +180,7 @@ TEST(ReportCommand, RefusesDamagedResults) {
   const TempDir folder;
   const fs::path run = copy_of_run(folder, "run");
   const std::string page = folder / "page.html";
-  const std::string sweeps = content(run / "sweeps.csv");
+  const std::string sweeps = slurp(run / "sweeps.csv");
   replace(run / "sweeps.csv", sweeps.substr(0, sweeps.size() - 40));
   rilo_fails(3, {"report", run, "-o", page}, {"sweeps.csv", "line 13"});
   replace(run / "sweeps.csv", sweeps.substr(0, sweeps.find('\n', sweeps.find('\n') + 1) + 1));

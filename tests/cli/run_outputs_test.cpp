@@ -117,9 +117,7 @@ TEST(RunOutputs, AllFilesArePresentAndParse) {
   const TempDir folder;
   const auto out = folder / "results" / "nested";
   const Outcome run = rilo_succeeds({"run", shared_drive(), "--out", out, "--threads", "2"});
-  for (const char* part : {"12 sweeps", "time per sweep", "peak memory", "pose time", "APE"}) {
-    EXPECT_NE(run.out.find(part), std::string::npos) << part << " in\n" << run.out;
-  }
+  expect_parts(run.out, {"12 sweeps", "time per sweep", "peak memory", "pose time", "APE"});
   const json metrics = json_file(out / "metrics.json");
   expect_metrics(metrics);
   ASSERT_TRUE(metrics.contains("evaluation"));

@@ -54,6 +54,5 @@ std::optional<PointTimeReference> parse_point_time_reference(std::string_view te
   return value_of(kReferences, text);
 }
 std::optional<SpinDirection> parse_spin_direction(std::string_view text) { return value_of(kDirections, text); }
-std::optional<OnBadSweep> parse_on_bad_sweep(std::string_view text) { return value_of(kOnBadSweep, text); }
 
 }  // namespace rilo

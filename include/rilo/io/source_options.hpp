@@ -52,7 +52,6 @@ std::optional<SpinDirection> parse_spin_direction(std::string_view text);
 enum class OnBadSweep : std::uint8_t { kFail, kSkip };
 /// fail, skip.
 std::string_view to_string(OnBadSweep value);
-std::optional<OnBadSweep> parse_on_bad_sweep(std::string_view text);
 
 struct SourceOptions {
   std::string topic;  ///< of a recording; empty: the only topic of clouds, or else of packets

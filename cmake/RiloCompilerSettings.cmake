@@ -9,8 +9,9 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 # Shared builds (-DBUILD_SHARED_LIBS=ON): the installed command finds its libraries wherever the prefix is moved.
 set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-# -ffp-contract=off: the same bits whatever the compiler would fuse; -fno-math-errno: sqrt becomes one instruction.
-add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off> $<$<COMPILE_LANGUAGE:CXX>:-fno-math-errno>)
+# -ffp-contract=off: the same bits whatever the compiler would fuse; -fno-math-errno: sqrt becomes one instruction;
+# -fno-trapping-math: conditions on numbers become vector instructions.
+add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-fno-math-errno;-fno-trapping-math>")
 
 # Our own targets get every warning; headers of dependencies are system headers and stay silent.
 function(rilo_set_warnings target)

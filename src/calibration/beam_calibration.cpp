@@ -77,7 +77,7 @@ void BeamCalibration::find_steps() {
     Information& beam = beams_[b];
     beam.mean += (beam.sweep - beam.mean) / sweeps_;
     const Eigen::Matrix2d information = beam.mean + kPriorInformation * Eigen::Matrix2d::Identity();
-    const Eigen::Vector2d angles = angles_[b].cast<double>();
+    const Eigen::Vector2d angles = angles_.of(b).cast<double>();
     steps_[b] = config_.gain * information.inverse() * (beam.gradient - kPriorInformation * angles);
   }
 }
@@ -103,7 +103,7 @@ void BeamCalibration::apply_differences() {
       total += weight;
     }
     if (neighbour - first >= kFewestNeighbours && total.minCoeff() > 0.0) {
-      angles_[b] += (steps_[b] - (sum / total).matrix()).cast<float>();
+      angles_.at(b) += (steps_[b] - (sum / total).matrix()).cast<float>();
     }
   }
 }
@@ -111,7 +111,7 @@ void BeamCalibration::apply_differences() {
 Eigen::Vector2d BeamCalibration::rms_rad() const {
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
   for (const Beam b : in_order_) {
-    squares += angles_[b].cast<double>().cwiseAbs2();
+    squares += angles_.of(b).cast<double>().cwiseAbs2();
   }
   return (squares / std::max(1.0, static_cast<double>(in_order_.size()))).cwiseSqrt();
 }

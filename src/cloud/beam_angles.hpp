@@ -16,16 +16,14 @@ inline Eigen::Vector3f azimuth_jacobian(const Eigen::Vector3f& p) { return {-p.y
 /// Angles to add to those of each beam. Small: points move along the tangents.
 class BeamAngles {
  public:
-  /// Elevation and azimuth of a beam (rad).
-  Eigen::Vector2f& operator[](Beam beam) { return angles_rad_[beam]; }
-  const Eigen::Vector2f& operator[](Beam beam) const { return angles_rad_[beam]; }
+  /// Elevation and azimuth of a beam, below kBeams (rad).
+  Eigen::Vector2f& at(Beam beam) { return angles_rad_[beam]; }
+  /// The same; zero for points of no beam.
+  Eigen::Vector2f of(Beam beam) const { return beam < kBeams ? angles_rad_[beam] : Eigen::Vector2f(0.0F, 0.0F); }
 
-  /// The point (sensor frame, m) as it would be at the right angles; points of no beam stay.
+  /// The point (sensor frame, m) as it would be at the right angles.
   Eigen::Vector3f corrected(const Eigen::Vector3f& p, Beam beam) const {
-    if (beam >= kBeams) {
-      return p;
-    }
-    const Eigen::Vector2f& angles = angles_rad_[beam];
+    const Eigen::Vector2f angles = of(beam);
     return p + angles.x() * elevation_jacobian(p) + angles.y() * azimuth_jacobian(p);
   }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "cloud/fixed_chunks.hpp"
+#include "cloud/point_block.hpp"
 
 namespace rilo {
 
@@ -24,61 +26,64 @@ Beam beam_of(float tangent) {
   return bin >= 0.0F && bin < static_cast<float>(kBeams) ? static_cast<Beam>(bin) : kNoBeam;
 }
 
-int quadrant(float x, float y) {
-  if (y >= 0.0F) {
-    return x >= 0.0F ? 0 : 1;
-  }
-  return x < 0.0F ? 2 : 3;
-}
-
 }  // namespace
 
 /// Returns the sense in which the azimuth runs on from point to point, 1 or -1.
 float BeamIndex::find_tangents(std::span<const Eigen::Vector3f> points) {
   tangents_.resize(points.size());
   forward_.assign(chunk_count(points.size()), 0);
-  for_fixed_chunks(points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Eigen::Vector3f& p = points[i];
-      const Eigen::Vector3f& before = points[i > 0 ? i - 1 : 0];
-      tangents_[i] = p.z() / std::sqrt(p.x() * p.x() + p.y() * p.y());
-      const float turned = before.x() * p.y() - before.y() * p.x();
-      forward_[chunk] += (turned > 0.0F ? 1 : 0) - (turned < 0.0F ? 1 : 0);
-    }
+  for_fixed_chunks(points.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    PointBlock p;
+    alignas(64) PointBlock::Lanes<float> tangents;
+    for_each_block(begin, end, [&](std::size_t first, std::size_t n) {
+      p.load(&points[first], n);
+      rilo::find_tangents(p, tangents);
+      std::copy_n(tangents.begin(), n, tangents_.begin() + static_cast<std::ptrdiff_t>(first));
+      forward_[chunk] += steps_in_azimuth(p);  // zeros beyond the points: no step
+    });
   });
   const std::ptrdiff_t forward = std::accumulate(forward_.begin(), forward_.end(), std::ptrdiff_t{0});
   return forward >= 0 ? 1.0F : -1.0F;
 }
 
 bool BeamIndex::find_revolutions(std::span<const Eigen::Vector3f> points, float direction) {
+  revolutions_.clear();
+  const auto start = std::find_if(tangents_.begin(), tangents_.end(), [](float t) { return std::isfinite(t); });
+  if (start == tangents_.end()) {
+    return false;
+  }
+  const auto begin = static_cast<std::size_t>(start - tangents_.begin());
+  const Eigen::Vector2f p0(points[begin].x(), direction * points[begin].y());
+  const Eigen::Vector2f seam(kSeamCosine * p0.x() + kSeamSine * p0.y(), kSeamCosine * p0.y() - kSeamSine * p0.x());
   // Quadrants gone through since the first point, counted with their sign: a few points that come back over a border
   // do not matter.
-  revolutions_.clear();
-  Eigen::Vector2f seam = Eigen::Vector2f::Zero();
   int at = 0;
   int travelled = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!std::isfinite(tangents_[i])) {
-      continue;
+  PointBlock p;
+  alignas(64) PointBlock::Lanes<int> quadrants;
+  Revolution revolution{begin};
+  for_each_block(begin, points.size(), [&](std::size_t first, std::size_t n) {
+    p.load(&points[first], n);
+    find_quadrants(p, seam, direction, quadrants);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto tangent = static_cast<double>(tangents_[first + i]);
+      if (!std::isfinite(tangent)) {
+        continue;
+      }
+      if (const int now = quadrants[i]; now != at) {
+        const int step = (now - at + kQuadrants) % kQuadrants;
+        at = now;
+        travelled += step == kQuadrants - 1 ? -1 : step;
+        if (travelled >= kQuadrants * static_cast<int>(revolutions_.size() + 1)) {
+          revolutions_.push_back(std::exchange(revolution, {first + i}));
+        }
+      }
+      ++revolution.count;
+      revolution.sum += tangent;
+      revolution.squares += tangent * tangent;
     }
-    const Eigen::Vector2f p(points[i].x(), direction * points[i].y());
-    if (revolutions_.empty()) {
-      seam = {kSeamCosine * p.x() + kSeamSine * p.y(), kSeamCosine * p.y() - kSeamSine * p.x()};
-      revolutions_.push_back({i});
-    }
-    const int now = quadrant(seam.dot(p), seam.x() * p.y() - seam.y() * p.x());
-    const int step = (now - at + kQuadrants) % kQuadrants;
-    at = now;
-    travelled += step == kQuadrants - 1 ? -1 : step;
-    if (travelled >= kQuadrants * static_cast<int>(revolutions_.size())) {
-      revolutions_.push_back({i});
-    }
-    Revolution& revolution = revolutions_.back();
-    const auto tangent = static_cast<double>(tangents_[i]);
-    ++revolution.count;
-    revolution.sum += tangent;
-    revolution.squares += tangent * tangent;
-  }
+  });
+  revolutions_.push_back(revolution);
   return revolutions_.size() >= kFewestRevolutions && revolutions_are_beams();
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "cloud/elevation.hpp"
 #include "cloud/fixed_chunks.hpp"
+#include "cloud/point_block.hpp"
 
 namespace rilo {
 
@@ -20,7 +20,6 @@ constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz
 
 const PreparedSweep& Preprocessor::prepare(const SweepView& sweep) {
   crop(sweep);
-  normalise_times(sweep);
   prepared_.valid_points = cropped_.size();
   sample_beams();
   // A sweep without points gives no scale: the next one is still the first.
@@ -108,86 +107,114 @@ void Preprocessor::reset() {
   beam_angles_ = BeamAngles{};
   sample_phase_ = 0;
   elevation_offset_rad_ = 0.0;
-  span_known_ = false;
+  span_begin_s_ = std::numeric_limits<float>::infinity();
+  span_end_s_ = -span_begin_s_;
   source_points_ = static_cast<double>(config_.source_points);
   source_voxel_m_ = 0.0;
   prepared_.scene_range_m = 0.0;
 }
 
-/// Where the valid ones of each chunk go; returns how many there are in all.
-template <typename Valid>
-std::size_t Preprocessor::count_by_chunk(std::size_t count, const Valid& valid) {
-  chunk_begins_.assign(chunk_count(count), 0);
-  for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    std::size_t kept = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      kept += valid(i) ? 1U : 0U;
-    }
-    chunk_begins_[chunk] = kept;
+/// Which points are finite and within range, where those of each chunk go, and the span of their times.
+std::size_t Preprocessor::find_valid(const SweepView& sweep, bool timed) {
+  const std::size_t count = sweep.points.size();
+  valid_.resize(count);
+  chunks_.assign(chunk_count(count), {});
+  const auto min2 = static_cast<float>(config_.min_range_m * config_.min_range_m);
+  const auto max2 = static_cast<float>(config_.max_range_m * config_.max_range_m);
+  for_fixed_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    PointBlock p;
+    alignas(64) PointBlock::Lanes<float> times{};
+    alignas(64) PointBlock::Lanes<int> valid;
+    Chunk& found = chunks_[chunk];
+    for_each_block(begin, end, [&](std::size_t first, std::size_t n) {
+      p.load(&sweep.points[first], n);
+      if (timed) {
+        std::copy_n(sweep.times_s.begin() + static_cast<std::ptrdiff_t>(first), n, times.begin());
+      }
+      find_in_range(p, min2, max2, times, valid);
+      for (std::size_t i = 0; i < n; ++i) {
+        valid_[first + i] = static_cast<std::uint8_t>(valid[i]);
+        found.kept += static_cast<std::size_t>(valid[i]);
+      }
+      if (timed) {
+        for (std::size_t i = 0; i < n; ++i) {
+          found.begin_s = valid[i] != 0 ? std::min(found.begin_s, times[i]) : found.begin_s;
+          found.end_s = valid[i] != 0 ? std::max(found.end_s, times[i]) : found.end_s;
+        }
+      }
+    });
   });
   std::size_t total = 0;
-  for (std::size_t& begin : chunk_begins_) {
-    total += std::exchange(begin, total);
+  for (Chunk& chunk : chunks_) {
+    chunk.to = std::exchange(total, total + chunk.kept);
   }
   return total;
 }
 
 void Preprocessor::crop(const SweepView& sweep) {
   const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
-  const auto min2 = static_cast<float>(config_.min_range_m * config_.min_range_m);
-  const auto max2 = static_cast<float>(config_.max_range_m * config_.max_range_m);
-  const bool rotated = elevation_offset_rad_ != 0.0;
-  const ElevationRotation rotation(elevation_offset_rad_);
+  const std::size_t kept = find_valid(sweep, timed);
+  const float mid_s = timed && kept > 0 ? middle_of_times() : 0.0F;
+  prepared_.mid_stamp_ns = sweep.stamp_ns + static_cast<std::int64_t>(std::llround(static_cast<double>(mid_s) * 1e9));
   if (beams_tracked_) {
     beam_index_.assign(sweep, beams_);
   }
-  // A NaN or infinite coordinate makes the comparison false.
-  const auto valid = [&](std::size_t i) {
-    const float range2 = sweep.points[i].squaredNorm();
-    return range2 >= min2 && range2 <= max2 && (!timed || std::isfinite(sweep.times_s[i]));
-  };
-  const std::size_t kept = count_by_chunk(sweep.points.size(), valid);
   cropped_.points.resize(kept);
   cropped_.offsets_s.resize(timed ? kept : 0);
   cropped_beams_.resize(beams_tracked_ ? kept : 0);
   const bool intense = intensities_kept_ && sweep.intensities.size() == sweep.points.size();
   cropped_.intensities.resize(intense ? kept : 0);
+  const bool rotated = elevation_offset_rad_ != 0.0;
   for_fixed_chunks(sweep.points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    std::size_t to = chunk_begins_[chunk];
+    PointBlock p;
+    alignas(64) PointBlock::Lanes<float> elevation{};
+    alignas(64) PointBlock::Lanes<float> azimuth{};
+    std::size_t to = chunks_[chunk].to;
+    std::size_t n = 0;
+    const auto write = [&] {
+      if (rotated) {
+        rotate_elevation(p, elevation_offset_rad_);
+      }
+      if (beams_tracked_) {
+        turn_beams(p, elevation, azimuth);
+      }
+      p.store(&cropped_.points[to], n);
+      to += std::exchange(n, 0);
+    };
     for (std::size_t i = first; i < last; ++i) {
-      if (!valid(i)) {
+      if (valid_[i] == 0) {
         continue;
       }
-      const Eigen::Vector3f p = rotated ? rotation(sweep.points[i]) : sweep.points[i];
-      cropped_.points[to] = beams_tracked_ ? beam_angles_.corrected(p, beams_[i]) : p;
+      p.set(n, sweep.points[i]);
       if (beams_tracked_) {
-        cropped_beams_[to] = beams_[i];
+        const Eigen::Vector2f angles = beam_angles_.of(beams_[i]);
+        elevation[n] = angles.x();
+        azimuth[n] = angles.y();
+        cropped_beams_[to + n] = beams_[i];
       }
       if (timed) {
-        cropped_.offsets_s[to] = sweep.times_s[i];
+        cropped_.offsets_s[to + n] = sweep.times_s[i] - mid_s;
       }
       if (intense) {
-        cropped_.intensities[to] = sweep.intensities[i];
+        cropped_.intensities[to + n] = sweep.intensities[i];
       }
-      ++to;
+      if (++n == PointBlock::kSize) {
+        write();
+      }
+    }
+    if (n > 0) {
+      write();
     }
   });
 }
 
-void Preprocessor::normalise_times(const SweepView& sweep) {
-  prepared_.mid_stamp_ns = sweep.stamp_ns;
-  if (!cropped_.timed()) {
-    return;
+/// Middle of the span of the times (s) over all sweeps so far.
+float Preprocessor::middle_of_times() {
+  for (const Chunk& chunk : chunks_) {
+    span_begin_s_ = std::min(span_begin_s_, chunk.begin_s);
+    span_end_s_ = std::max(span_end_s_, chunk.end_s);
   }
-  const auto [begin, end] = std::minmax_element(cropped_.offsets_s.begin(), cropped_.offsets_s.end());
-  span_begin_s_ = span_known_ ? std::min(span_begin_s_, *begin) : *begin;
-  span_end_s_ = span_known_ ? std::max(span_end_s_, *end) : *end;
-  span_known_ = true;
-  const float mid = 0.5F * (span_begin_s_ + span_end_s_);
-  for (float& offset : cropped_.offsets_s) {
-    offset -= mid;
-  }
-  prepared_.mid_stamp_ns += static_cast<std::int64_t>(std::llround(static_cast<double>(mid) * 1e9));
+  return 0.5F * (span_begin_s_ + span_end_s_);
 }
 
 }  // namespace rilo

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "cloud/beam_angles.hpp"
@@ -52,11 +53,17 @@ class Preprocessor {
   void reset();
 
  private:
+  /// What is kept of a chunk of the sweep.
+  struct Chunk {
+    std::size_t kept = 0;
+    std::size_t to = 0;                                      // place of the first in the cropped cloud
+    float begin_s = std::numeric_limits<float>::infinity();  // span of their times
+    float end_s = -std::numeric_limits<float>::infinity();
+  };
   void crop(const SweepView& sweep);
-  template <typename Valid>
-  std::size_t count_by_chunk(std::size_t count, const Valid& valid);
+  std::size_t find_valid(const SweepView& sweep, bool timed);
+  float middle_of_times();
   void sample_beams();
-  void normalise_times(const SweepView& sweep);
   void downsample(double source_voxel_m);
   void adapt_voxel();
   void update_scene_range();
@@ -64,7 +71,8 @@ class Preprocessor {
   PreprocessConfig config_;
   TimedCloud cropped_;
   PreparedSweep prepared_;
-  std::vector<std::size_t> chunk_begins_;
+  std::vector<Chunk> chunks_;
+  std::vector<std::uint8_t> valid_;  // of the points of the sweep: 0 or 1
   std::vector<float> ranges_;
   VoxelMean map_mean_;
   VoxelMean source_mean_;
@@ -80,9 +88,8 @@ class Preprocessor {
   std::size_t sample_phase_ = 0;
   // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its
   // seam, and the reference time must not.
-  bool span_known_ = false;
-  float span_begin_s_ = 0;
-  float span_end_s_ = 0;
+  float span_begin_s_ = std::numeric_limits<float>::infinity();
+  float span_end_s_ = -std::numeric_limits<float>::infinity();
 };
 
 }  // namespace rilo

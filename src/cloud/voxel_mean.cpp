@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cloud/fixed_chunks.hpp"
+#include "cloud/point_block.hpp"
 #include "geometry/voxel_key.hpp"
 
 namespace rilo {
@@ -18,17 +19,21 @@ void VoxelMean::find_keys(const TimedCloud& in, double voxel_m) {
   const bool timed = in.timed();
   const double inverse = 1.0 / voxel_m;
   keys_.resize(in.size());
-  for_fixed_chunks(in.size(), [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const std::uint64_t half = timed && in.offsets_s[i] > 0.0F ? kSecondHalf : 0U;
-      keys_[i] = voxel_key(voxel_of(in.points[i], inverse)) | half;
-    }
+  for_fixed_chunks(in.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    PointBlock p;
+    alignas(64) PointBlock::Lanes<std::uint64_t> keys;
+    for_each_block(begin, end, [&](std::size_t first, std::size_t n) {
+      p.load(&in.points[first], n);
+      find_voxel_keys(p, inverse, keys);
+      for (std::size_t i = 0; i < n; ++i) {
+        keys_[first + i] = keys[i] | (timed && in.offsets_s[first + i] > 0.0F ? kSecondHalf : 0U);
+      }
+    });
   });
 }
 
 void VoxelMean::start() {
   means_.clear();
-  intensity_sums_.clear();
   if (slots_.empty() || ++generation_ == 0) {  // after 2^32 calls the old marks would come back to life
     slots_.assign(std::max(kFirstMeanSlots, slots_.size()), Slot{});
     generation_ = 1;
@@ -68,60 +73,77 @@ void VoxelMean::grow() {
   }
 }
 
-// `intensity` counts as often as the point it is of.
-void VoxelMean::add_intensity(std::uint32_t number, float intensity) {
-  if (number == intensity_sums_.size()) {
-    intensity_sums_.push_back(intensity);
-  } else {
-    intensity_sums_[number] += intensity;
+// Points are counted as often as `count_of` says.
+template <typename CountOf>
+void VoxelMean::add_up(const TimedCloud& in, const CountOf& count_of) {
+  const bool timed = in.timed();
+  const bool intense = !in.intensities.empty();
+  const std::size_t size = in.size();
+  const auto point_at = [&](std::size_t i) {
+    const Eigen::Vector3f& p = in.points[i];
+    return Eigen::Array4f(p.x(), p.y(), p.z(), timed ? in.offsets_s[i] : 0.0F);
+  };
+  for (std::size_t i = 0; i < size;) {
+    const std::uint64_t key = keys_[i];
+    const std::uint32_t number = number_of(key);
+    if (number == means_.size()) {
+      means_.push_back({point_at(i), Eigen::Array4f::Zero(), 0.0F, 0.0F});
+    }
+    Mean& mean = means_[number];
+    const Eigen::Array4f first = mean.first;
+    Eigen::Array4f sum = mean.sum;
+    float total = mean.count;
+    // Along a beam many points in a row share a voxel.
+    const std::size_t begin = i;
+    for (; i < size && keys_[i] == key; ++i) {
+      const float count = count_of(i);
+      sum += count * (point_at(i) - first);
+      total += count;
+    }
+    mean.sum = sum;
+    mean.count = total;
+    if (intense) {
+      for (std::size_t k = begin; k < i; ++k) {
+        mean.intensity_sum += count_of(k) * in.intensities[k];
+      }
+    }
+    const std::size_t ahead = std::min(i + kAhead, size);
+    for (std::size_t k = begin + kAhead; k < ahead; ++k) {
+      if (keys_[k] != keys_[k - 1]) {
+        __builtin_prefetch(&slots_[mix_key(keys_[k]) & (slots_.size() - 1)]);
+      }
+    }
   }
 }
 
 void VoxelMean::average(const TimedCloud& in, double voxel_m, TimedCloud& out) {
-  const bool timed = in.timed();
   find_keys(in, voxel_m);
   start();
-  std::uint32_t number = 0;
-  for (std::size_t i = 0; i < in.size(); ++i) {
-    if (i + kAhead < in.size()) {
-      __builtin_prefetch(&slots_[mix_key(keys_[i + kAhead]) & (slots_.size() - 1)]);
-    }
-    // Along a beam many points in a row share a voxel.
-    if (i == 0 || keys_[i] != keys_[i - 1]) {
-      number = number_of(keys_[i]);
-    }
-    const Eigen::Vector3f& p = in.points[i];
-    const float offset = timed ? in.offsets_s[i] : 0.0F;
-    const float count = in.counts.empty() ? 1.0F : in.counts[i];
-    if (!in.intensities.empty()) {
-      add_intensity(number, count * in.intensities[i]);
-    }
-    if (number == means_.size()) {
-      means_.push_back({p, offset, Eigen::Vector3f::Zero(), 0.0F, count});
-      continue;
-    }
-    Mean& mean = means_[number];
-    mean.sum += count * (p - mean.first);
-    mean.offset_sum_s += count * (offset - mean.first_offset_s);
-    mean.count += count;
+  if (in.counts.empty()) {
+    add_up(in, [](std::size_t) { return 1.0F; });
+  } else {
+    add_up(in, [&](std::size_t i) { return in.counts[i]; });
   }
-  write(timed, out);
+  write(in, out);
 }
 
-void VoxelMean::write(bool timed, TimedCloud& out) const {
+void VoxelMean::write(const TimedCloud& in, TimedCloud& out) const {
+  const bool timed = in.timed();
+  const bool intense = !in.intensities.empty();
   out.points.resize(means_.size());
   out.counts.resize(means_.size());
   out.offsets_s.resize(timed ? means_.size() : 0);
-  out.intensities.resize(intensity_sums_.size());
+  out.intensities.resize(intense ? means_.size() : 0);
   for (std::size_t n = 0; n < means_.size(); ++n) {
     const Mean& mean = means_[n];
-    out.points[n] = mean.first + mean.sum / mean.count;
+    const Eigen::Array4f point = mean.first + mean.sum / mean.count;
+    out.points[n] = point.head<3>();
     out.counts[n] = mean.count;
     if (timed) {
-      out.offsets_s[n] = mean.first_offset_s + mean.offset_sum_s / mean.count;
+      out.offsets_s[n] = point[3];
     }
-    if (!intensity_sums_.empty()) {
-      out.intensities[n] = intensity_sums_[n] / mean.count;
+    if (intense) {
+      out.intensities[n] = mean.intensity_sum / mean.count;
     }
   }
 }

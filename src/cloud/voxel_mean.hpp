@@ -28,24 +28,23 @@ class VoxelMean {
   };
   // Sums relative to a voxel's first point: exact in single precision however many there are.
   struct Mean {
-    Eigen::Vector3f first;
-    float first_offset_s;
-    Eigen::Vector3f sum;
-    float offset_sum_s;
+    Eigen::Array4f first;  // place and offset
+    Eigen::Array4f sum;
     float count;
+    float intensity_sum;
   };
   void find_keys(const TimedCloud& in, double voxel_m);
   void start();
   std::uint32_t number_of(std::uint64_t key);
   void grow();
-  void add_intensity(std::uint32_t number, float intensity);
-  void write(bool timed, TimedCloud& out) const;
+  template <typename CountOf>
+  void add_up(const TimedCloud& in, const CountOf& count_of);
+  void write(const TimedCloud& in, TimedCloud& out) const;
 
   std::vector<std::uint64_t> keys_;  // of the points
   std::vector<Slot> slots_;
   std::uint32_t generation_ = 0;
   std::vector<Mean> means_;
-  std::vector<float> intensity_sums_;  // of the means; empty without intensities
 };
 
 }  // namespace rilo

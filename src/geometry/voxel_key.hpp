@@ -29,12 +29,17 @@ inline VoxelIndex voxel_of(const Eigen::MatrixBase<Derived>& p, double inverse_s
           floor_int(static_cast<double>(p.z()) * inverse_size)};
 }
 
+/// The low 21 bits of three indices.
+inline std::uint64_t packed_voxel_key(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  constexpr std::uint64_t kMask = (1U << 21U) - 1U;
+  return (x & kMask) | ((y & kMask) << 21U) | ((z & kMask) << 42U);
+}
+
 /// Key of a voxel: 21 bits an axis, so that it repeats every 2^21 voxels: 21 km with the smallest voxel of the map,
 /// 0.01 m. Unique among voxels that lie within 2^20 voxels of one place, however far from the origin that is.
 inline std::uint64_t voxel_key(const VoxelIndex& v) {
-  constexpr std::uint64_t kMask = (1U << 21U) - 1U;
-  const auto pack = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) & kMask; };
-  return pack(v.x) | (pack(v.y) << 21U) | (pack(v.z) << 42U);
+  return packed_voxel_key(static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y),
+                          static_cast<std::uint32_t>(v.z));
 }
 
 /// Of the voxels that have this key the one nearest to `place`.

@@ -58,17 +58,19 @@ void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_o
                       const PoseDerivative& pose_by_elevation) {
   const Eigen::Matrix3f R = T_odom_lidar.linear().cast<float>();
   inserted_.resize(points.size());
+  voxels_.resize(points.size());
   for_fixed_chunks(points.size(), [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Eigen::Vector3d place = T_odom_lidar * points[i].cast<double>();
       inserted_[i] = {place, R * points[i],
                       R * elevation_jacobian(points[i]) + pose_by_elevation.at(place).cast<float>()};
+      voxels_[i] = finest_voxel(place);
     }
   });
   // The levels are independent of one another.
   for_each_index(grids_.size() - finest_, [&](std::size_t i) {
     PlaneGrid& grid = grids_[finest_ + i];
-    grid.insert(inserted_);
+    grid.insert(inserted_, voxels_, static_cast<int>(i));
     grid.refit();
   });
 }

@@ -88,7 +88,8 @@ class LocalMap {
   LocalMapConfig config_;
   std::vector<PlaneGrid> grids_;  // finest first
   std::size_t finest_ = 0;
-  std::vector<InsertedPoint> inserted_;  // the points being inserted
+  std::vector<InsertedPoint> inserted_;  // the points being inserted ...
+  std::vector<VoxelIndex> voxels_;       // ... and their voxels at the finest level in use
 };
 
 }  // namespace rilo

@@ -19,20 +19,31 @@ PlaneGrid::PlaneGrid(double voxel_m, const PlaneCriteria& criteria)
 Eigen::Vector3d PlaneGrid::centre_of(const Voxel& voxel) const { return centre_of(voxel_of_key(voxel.key, place_)); }
 
 void PlaneGrid::insert(const InsertedPoint& point) {
-  add(find_or_add(voxel_key(voxel_of(point.place, inverse_))).voxel, point);
+  const VoxelIndex index = index_of(point.place);
+  add(find_or_add(voxel_key(index)).voxel, index, point);
 }
 
 void PlaneGrid::insert(const std::vector<InsertedPoint>& points) {
-  std::array<std::uint64_t, kBatch> keys{};
+  std::vector<VoxelIndex> voxels;
+  voxels.reserve(points.size());
+  for (const InsertedPoint& point : points) {
+    voxels.push_back(index_of(point.place));
+  }
+  insert(points, voxels, 0);
+}
+
+void PlaneGrid::insert(const std::vector<InsertedPoint>& points, const std::vector<VoxelIndex>& voxels, int doublings) {
+  std::array<VoxelIndex, kBatch> indices{};
   std::array<std::uint32_t, kBatch> ids{};
   for (std::size_t first = 0; first < points.size(); first += kBatch) {
     const std::size_t n = std::min(kBatch, points.size() - first);
     for (std::size_t i = 0; i < n; ++i) {
-      keys[i] = voxel_key(voxel_of(points[first + i].place, inverse_));
-      __builtin_prefetch(&slots_[mix_key(keys[i]) & (slots_.size() - 1)]);
+      const VoxelIndex& fine = voxels[first + i];
+      indices[i] = {fine.x >> doublings, fine.y >> doublings, fine.z >> doublings};
+      prefetch(indices[i]);
     }
     for (std::size_t i = 0; i < n; ++i) {
-      const Slot& slot = find_or_add(keys[i]);
+      const Slot& slot = find_or_add(voxel_key(indices[i]));
       ids[i] = slot.full ? kNone : slot.voxel;
       if (!slot.full) {
         __builtin_prefetch(&pool_[slot.voxel]);
@@ -40,13 +51,13 @@ void PlaneGrid::insert(const std::vector<InsertedPoint>& points) {
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (ids[i] != kNone) {
-        add(ids[i], points[first + i]);
+        add(ids[i], indices[i], points[first + i]);
       }
     }
   }
 }
 
-void PlaneGrid::add(std::uint32_t id, const InsertedPoint& point) {
+void PlaneGrid::add(std::uint32_t id, const VoxelIndex& index, const InsertedPoint& point) {
   Voxel& voxel = pool_[id];
   if (voxel.count >= criteria_.max_points) {
     if (voxel.fit != Fit::kNoPlane) {
@@ -62,7 +73,7 @@ void PlaneGrid::add(std::uint32_t id, const InsertedPoint& point) {
     voxel.elevation_jacobian_sum *= share;
     voxel.ray_sum *= share;
   }
-  const Eigen::Vector3f d = (point.place - centre_of(voxel_of(point.place, inverse_))).cast<float>();
+  const Eigen::Vector3f d = (point.place - centre_of(index)).cast<float>();
   voxel.sum += d;
   voxel.elevation_jacobian_sum += point.elevation_jacobian;
   voxel.ray_sum += point.ray;

@@ -80,6 +80,8 @@ class PlaneGrid {
 
   /// Adds points in their order.
   void insert(const std::vector<InsertedPoint>& points);
+  /// The same for points whose voxels are known in a grid whose voxels double so many times to those of this one.
+  void insert(const std::vector<InsertedPoint>& points, const std::vector<VoxelIndex>& voxels, int doublings);
 
   /// Moves all points as if the sensor's elevation angles had been larger by `angle_rad`, a small angle, relative to a
   /// sensor that moves with them by `sensor`.
@@ -189,7 +191,7 @@ class PlaneGrid {
     return slot;
   }
   Slot& find_or_add(std::uint64_t key);
-  void add(std::uint32_t id, const InsertedPoint& point);
+  void add(std::uint32_t id, const VoxelIndex& index, const InsertedPoint& point);
   void erase(std::uint32_t voxel);
   void grow();
   void fit(std::uint32_t id);

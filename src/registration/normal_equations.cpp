@@ -3,7 +3,16 @@
 namespace rilo {
 
 namespace {
-Matrix6d symmetric(const Matrix6d& lower) { return lower.selfadjointView<Eigen::Lower>(); }
+Matrix6d unpacked(const PackedSymmetric6& h) {
+  Matrix6d lower = Matrix6d::Zero();
+  lower.col(0) = h.segment<6>(0);
+  lower.col(1) = h.segment<6>(6);
+  lower.col(2).tail<4>() = h.segment<4>(12);
+  lower.col(3).tail<4>() = h.segment<4>(16);
+  lower.col(4).tail<2>() = h.segment<2>(20);
+  lower.col(5).tail<2>() = h.segment<2>(22);
+  return lower.selfadjointView<Eigen::Lower>();
+}
 }  // namespace
 
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
@@ -18,12 +27,12 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   return *this;
 }
 
-Matrix6d NormalEquations::pose_hessian() const { return symmetric(H0); }
+Matrix6d NormalEquations::pose_hessian() const { return unpacked(H0); }
 
 Matrix12d NormalEquations::hessian() const {
   Matrix12d H;
-  const Matrix6d cross = symmetric(H1);
-  H << symmetric(H0), cross, cross, symmetric(H2);
+  const Matrix6d cross = unpacked(H1);
+  H << unpacked(H0), cross, cross, unpacked(H2);
   return H;
 }
 

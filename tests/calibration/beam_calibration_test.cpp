@@ -49,7 +49,7 @@ BeamCalibration learnt(double step_deg, const Error& error_deg) {
   BeamSample sample;
   for (const Eigen::Vector3f& p : scene.points) {
     const Beam beam = beam_of(p, step_deg);
-    wrong[beam] = -static_cast<float>(kDegree) * error_deg(beam);
+    wrong.at(beam) = -static_cast<float>(kDegree) * error_deg(beam);
     sample.beams.push_back(beam);
   }
   for (int sweep = 0; sweep < 100; ++sweep) {
@@ -69,11 +69,11 @@ TEST(BeamCalibration, FindsTheErrorsOfAlternatingBeams) {
   };
   const BeamCalibration calibration = learnt(0.4, error_deg);
   for (Beam beam = 470; beam < 530; ++beam) {  // within ±12°: walls and edges of floor and ceiling
-    const Eigen::Vector2f found = calibration.angles()[beam] / static_cast<float>(kDegree);
+    const Eigen::Vector2f found = calibration.angles().of(beam) / static_cast<float>(kDegree);
     EXPECT_NEAR(found.y(), error_deg(beam).y(), 0.025F) << beam;
   }
   for (Beam beam = 430; beam < 450; ++beam) {  // 20° and more below the horizon: the floor
-    const Eigen::Vector2f found = calibration.angles()[beam] / static_cast<float>(kDegree);
+    const Eigen::Vector2f found = calibration.angles().of(beam) / static_cast<float>(kDegree);
     EXPECT_NEAR(found.x(), error_deg(beam).x(), 0.02F) << beam;
   }
   EXPECT_GT(calibration.rms_rad().x(), 0.02 * kDegree);
@@ -100,7 +100,7 @@ TEST(BeamCalibration, NothingSeenNothingLearnt) {
   sample.beams.assign(50, kNoBeam);
   calibration.learn(sample, room().map, {}, 0.3, {});
   EXPECT_EQ(calibration.rms_rad().norm(), 0.0);
-  EXPECT_TRUE(calibration.angles()[3].isZero());
+  EXPECT_TRUE(calibration.angles().of(3).isZero());
 }
 
 /// Drift of a short drive with an HDL-64 whose beams are off by `sigma_deg`, and what was corrected.
@@ -114,7 +114,7 @@ SweepStats drive(double sigma_deg, bool enabled, double* corrected_share = nullp
   std::normal_distribution<float> error(0.0F, static_cast<float>(sigma_deg * kDegree) + 1e-12F);
   BeamAngles wrong;
   for (Beam beam = 0; beam < 64; ++beam) {
-    wrong[beam] = {error(rng), error(rng)};
+    wrong.at(beam) = {error(rng), error(rng)};
   }
   OdometryConfig odometry_config;
   odometry_config.beams.gain = 0.2;

@@ -158,7 +158,7 @@ TEST(BeamIndex, HostileSweeps) {
 
 TEST(BeamAngles, CorrectsAlongTheTangents) {
   BeamAngles angles;
-  angles[7] = {0.001F, -0.002F};
+  angles.at(7) = {0.001F, -0.002F};
   const Eigen::Vector3f p = point_at(40.0, -5.0, 30.0);
   const Eigen::Vector3f expected = point_at(40.0 - 0.002 / kRadPerDeg, -5.0 + 0.001 / kRadPerDeg, 30.0);
   EXPECT_LT((angles.corrected(p, 7) - expected).norm(), 5e-4F);

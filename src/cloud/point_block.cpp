@@ -1,0 +1,111 @@
+#include "cloud/point_block.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "geometry/voxel_key.hpp"
+
+// Compiled for eight lanes too, and chosen by what the processor has; the bits are the same. Sanitizers cannot run
+// what chooses.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define RILO_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define RILO_WIDE
+#endif
+
+namespace rilo {
+
+namespace {
+constexpr std::size_t kSize = PointBlock::kSize;
+template <typename T>
+using Lanes = PointBlock::Lanes<T>;
+
+/// Tangent of the elevation angle of a point at a horizontal distance; 0 on the axis.
+inline float tangent_of(float z, float horizontal) { return horizontal > 0.0F ? z / horizontal : 0.0F; }
+
+inline void find_voxel_indices(const Lanes<float>& from, double inverse_size, Lanes<std::uint32_t>& to) {
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const double v = static_cast<double>(from[i]) * inverse_size;
+    const auto truncated = static_cast<double>(static_cast<int>(v));
+    to[i] = static_cast<std::uint32_t>(static_cast<int>(truncated - (v < truncated ? 1.0 : 0.0)));
+  }
+}
+}  // namespace
+
+RILO_WIDE void find_in_range(const PointBlock& p, float min2, float max2, const Lanes<float>& times_s,
+                             Lanes<int>& in_range) {
+  for (std::size_t i = 0; i < kSize; ++i) {
+    // A NaN or infinite number makes a comparison false.
+    const float range2 = p.x[i] * p.x[i] + (p.y[i] * p.y[i] + p.z[i] * p.z[i]);
+    const bool timed = std::abs(times_s[i]) <= std::numeric_limits<float>::max();
+    in_range[i] = static_cast<int>(range2 >= min2) & static_cast<int>(range2 <= max2) & static_cast<int>(timed);
+  }
+}
+
+RILO_WIDE void find_tangents(const PointBlock& p, Lanes<float>& tangents) {
+  for (std::size_t i = 0; i < kSize; ++i) {
+    tangents[i] = p.z[i] / std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i]);
+  }
+}
+
+RILO_WIDE int steps_in_azimuth(const PointBlock& p) {
+  int steps = 0;
+  for (std::size_t i = 1; i < kSize; ++i) {
+    const float turned = p.x[i - 1] * p.y[i] - p.y[i - 1] * p.x[i];
+    steps += (turned > 0.0F ? 1 : 0) - (turned < 0.0F ? 1 : 0);
+  }
+  return steps;
+}
+
+RILO_WIDE void find_quadrants(const PointBlock& p, const Eigen::Vector2f& seam, float direction,
+                              Lanes<int>& quadrants) {
+  const float c = seam.x();
+  const float s = seam.y();
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const float y = direction * p.y[i];
+    const int behind = c * p.x[i] + s * y < 0.0F ? 1 : 0;
+    const int right = c * y - s * p.x[i] < 0.0F ? 1 : 0;
+    quadrants[i] = 2 * right + (behind ^ right);
+  }
+}
+
+RILO_WIDE void turn_beams(PointBlock& p, const Lanes<float>& elevation_rad, const Lanes<float>& azimuth_rad) {
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const float x = p.x[i];
+    const float y = p.y[i];
+    const float horizontal = std::sqrt(x * x + y * y);
+    const float tangent = tangent_of(p.z[i], horizontal);
+    p.x[i] = x + elevation_rad[i] * (-tangent * x) + azimuth_rad[i] * -y;
+    p.y[i] = y + elevation_rad[i] * (-tangent * y) + azimuth_rad[i] * x;
+    p.z[i] = p.z[i] + elevation_rad[i] * horizontal;
+  }
+}
+
+RILO_WIDE void rotate_elevation(PointBlock& p, double angle_rad) {
+  const auto cosine = static_cast<float>(std::cos(angle_rad));
+  const auto sine = static_cast<float>(std::sin(angle_rad));
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const float x = p.x[i];
+    const float y = p.y[i];
+    const float horizontal = std::sqrt(x * x + y * y);
+    const float tangent = tangent_of(p.z[i], horizontal);
+    p.x[i] = cosine * x + sine * (-tangent * x);
+    p.y[i] = cosine * y + sine * (-tangent * y);
+    p.z[i] = cosine * p.z[i] + sine * horizontal;
+  }
+}
+
+RILO_WIDE void find_voxel_keys(const PointBlock& p, double inverse_size, Lanes<std::uint64_t>& keys) {
+  alignas(64) Lanes<std::uint32_t> x;
+  alignas(64) Lanes<std::uint32_t> y;
+  alignas(64) Lanes<std::uint32_t> z;
+  find_voxel_indices(p.x, inverse_size, x);
+  find_voxel_indices(p.y, inverse_size, y);
+  find_voxel_indices(p.z, inverse_size, z);
+  for (std::size_t i = 0; i < kSize; ++i) {
+    keys[i] = packed_voxel_key(x[i], y[i], z[i]);
+  }
+}
+
+}  // namespace rilo

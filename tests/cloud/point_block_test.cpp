@@ -1,0 +1,143 @@
+// What works on a block of points gives what the same does point by point, to the last bit.
+#include "cloud/point_block.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "cloud/beam_angles.hpp"
+#include "cloud/elevation.hpp"
+#include "cloud/random_points.hpp"
+#include "geometry/voxel_key.hpp"
+
+namespace rilo {
+namespace {
+
+constexpr std::size_t kSize = PointBlock::kSize;
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+/// Random points, and some on the axis.
+std::vector<Eigen::Vector3f> points() {
+  std::vector<Eigen::Vector3f> p = test::random_points(kSize, 50.0F, 7);
+  p[3] = {0.0F, 0.0F, 2.0F};
+  p[4] = Eigen::Vector3f::Zero();
+  p[5] = {-4.0F, 0.0F, 0.0F};
+  return p;
+}
+
+PointBlock block_of(const std::vector<Eigen::Vector3f>& p) {
+  PointBlock block;
+  block.load(p.data(), p.size());
+  return block;
+}
+
+TEST(PointBlock, LoadsStoresAndFillsUpWithZeros) {
+  std::vector<Eigen::Vector3f> p = points();
+  p.resize(10);
+  PointBlock block = block_of(points());
+  block.load(p.data(), p.size());
+  std::vector<Eigen::Vector3f> out(kSize, Eigen::Vector3f::Ones());
+  block.store(out.data(), 10);
+  EXPECT_TRUE(std::equal(p.begin(), p.end(), out.begin()));
+  EXPECT_EQ(out[10], Eigen::Vector3f::Ones());
+  block.store(out.data(), kSize);
+  EXPECT_TRUE(std::all_of(out.begin() + 10, out.end(), [](const auto& q) { return q.isZero(0.0F); }));
+}
+
+TEST(PointBlock, BlocksCoverAllPointsOnce) {
+  std::vector<std::pair<std::size_t, std::size_t>> blocks;
+  for_each_block(5, 5 + 2 * kSize + 1, [&](std::size_t first, std::size_t n) { blocks.emplace_back(first, n); });
+  EXPECT_EQ(blocks,
+            (std::vector<std::pair<std::size_t, std::size_t>>{{5, kSize}, {5 + kSize, kSize}, {5 + 2 * kSize, 1}}));
+  for_each_block(5, 5, [&](std::size_t, std::size_t) { FAIL(); });
+}
+
+TEST(PointBlock, RangeAndTimesThatAreNumbers) {
+  std::vector<Eigen::Vector3f> p(kSize, Eigen::Vector3f(3.0F, 0.0F, 4.0F));
+  PointBlock::Lanes<float> times{};
+  p[1] = {5.1F, 0.0F, 0.0F};
+  p[2] = {0.0F, 0.9F, 0.0F};
+  p[3] = {kNotANumber, 3.0F, 0.0F};
+  p[4] = {3.0F, 0.0F, -kInfinite};
+  times[5] = kNotANumber;
+  times[6] = -kInfinite;
+  PointBlock::Lanes<int> in_range{};
+  find_in_range(block_of(p), 1.0F, 25.0F, times, in_range);
+  for (std::size_t i = 0; i < kSize; ++i) {
+    EXPECT_EQ(in_range[i], i >= 1 && i <= 6 ? 0 : 1) << i;
+  }
+}
+
+TEST(PointBlock, VoxelKeys) {
+  std::vector<Eigen::Vector3f> p = points();
+  p[6] = {-0.3F, 0.3F, 0.6F};  // on borders of voxels
+  for (const double inverse : {1.0 / 0.3, 10.0, 0.5}) {
+    PointBlock::Lanes<std::uint64_t> keys{};
+    find_voxel_keys(block_of(p), inverse, keys);
+    for (std::size_t i = 0; i < kSize; ++i) {
+      EXPECT_EQ(keys[i], voxel_key(voxel_of(p[i], inverse))) << i;
+    }
+  }
+}
+
+TEST(PointBlock, AnglesOfBeams) {
+  const std::vector<Eigen::Vector3f> p = points();
+  BeamAngles angles;
+  PointBlock::Lanes<float> elevation{};
+  PointBlock::Lanes<float> azimuth{};
+  for (std::size_t i = 0; i < kSize; ++i) {
+    elevation[i] = 1e-3F * static_cast<float>(i);
+    azimuth[i] = -2e-3F * static_cast<float>(i % 5);
+    angles.at(static_cast<Beam>(i)) = {elevation[i], azimuth[i]};
+  }
+  PointBlock block = block_of(p);
+  turn_beams(block, elevation, azimuth);
+  std::vector<Eigen::Vector3f> turned(kSize);
+  block.store(turned.data(), kSize);
+  for (std::size_t i = 0; i < kSize; ++i) {
+    EXPECT_EQ(turned[i], angles.corrected(p[i], static_cast<Beam>(i))) << i;
+  }
+  EXPECT_EQ(angles.corrected(p[0], kNoBeam), p[0]);
+}
+
+TEST(PointBlock, RotationInElevation) {
+  const std::vector<Eigen::Vector3f> p = points();
+  PointBlock block = block_of(p);
+  rotate_elevation(block, 0.02);
+  std::vector<Eigen::Vector3f> rotated(kSize);
+  block.store(rotated.data(), kSize);
+  for (std::size_t i = 0; i < kSize; ++i) {
+    EXPECT_EQ(rotated[i], ElevationRotation(0.02)(p[i])) << i;
+  }
+}
+
+TEST(PointBlock, TangentsQuadrantsAndSteps) {
+  std::vector<Eigen::Vector3f> p(kSize);
+  const float step = 0.1F;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const float azimuth = step * (static_cast<float>(i) + 0.5F);
+    p[i] = {4.0F * std::cos(azimuth), 4.0F * std::sin(azimuth), 1.0F};
+  }
+  PointBlock::Lanes<float> tangents{};
+  find_tangents(block_of(p), tangents);
+  PointBlock::Lanes<int> quadrants{};
+  find_quadrants(block_of(p), {1.0F, 0.0F}, 1.0F, quadrants);
+  PointBlock::Lanes<int> mirrored{};
+  find_quadrants(block_of(p), {1.0F, 0.0F}, -1.0F, mirrored);
+  for (std::size_t i = 0; i < kSize; ++i) {
+    EXPECT_NEAR(tangents[i], 0.25F, 1e-6F);
+    const int quadrant = static_cast<int>(step * (static_cast<float>(i) + 0.5F) / 1.5707964F) % 4;
+    EXPECT_EQ(quadrants[i], quadrant) << i;
+    EXPECT_EQ(mirrored[i], 3 - quadrant) << i;
+  }
+  EXPECT_EQ(steps_in_azimuth(block_of(p)), static_cast<int>(kSize) - 1);
+  std::reverse(p.begin(), p.end());
+  EXPECT_EQ(steps_in_azimuth(block_of(p)), 1 - static_cast<int>(kSize));
+  p.resize(10);  // zeros beyond: no step
+  EXPECT_EQ(steps_in_azimuth(block_of(p)), -9);
+}
+
+}  // namespace
+}  // namespace rilo

@@ -1,6 +1,7 @@
 #include "cloud/voxel_mean.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "cloud/fixed_chunks.hpp"
@@ -13,6 +14,9 @@ namespace {
 constexpr std::uint64_t kSecondHalf = 1ULL << 63U;  // a bit that voxel_key leaves free
 constexpr std::size_t kFirstMeanSlots = 1U << 12U;  // grows by itself; a power of two
 constexpr std::size_t kAhead = 16;                  // the table's memory is prefetched this many points ahead
+
+/// Sign of y of a voxel, a bit of its key.
+std::uint64_t side_of(std::uint64_t key) { return key >> 41U & 1U; }
 }  // namespace
 
 void VoxelMean::find_keys(const TimedCloud& in, double voxel_m) {
@@ -32,7 +36,7 @@ void VoxelMean::find_keys(const TimedCloud& in, double voxel_m) {
   });
 }
 
-void VoxelMean::start() {
+void VoxelMean::Side::start() {
   means_.clear();
   if (slots_.empty() || ++generation_ == 0) {  // after 2^32 calls the old marks would come back to life
     slots_.assign(std::max(kFirstMeanSlots, slots_.size()), Slot{});
@@ -41,7 +45,7 @@ void VoxelMean::start() {
 }
 
 /// Number of the mean of the voxel `key`; that of the next one to come if the voxel is new.
-std::uint32_t VoxelMean::number_of(std::uint64_t key) {
+std::uint32_t VoxelMean::Side::number_of(std::uint64_t key) {
   const std::uint64_t mask = slots_.size() - 1;
   std::uint64_t slot = mix_key(key) & mask;
   while (slots_[slot].generation == generation_) {
@@ -58,7 +62,7 @@ std::uint32_t VoxelMean::number_of(std::uint64_t key) {
   return next;
 }
 
-void VoxelMean::grow() {
+void VoxelMean::Side::grow() {
   const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(slots_.size() * 2));
   const std::uint64_t mask = slots_.size() - 1;
   for (const Slot& taken : old) {
@@ -73,9 +77,10 @@ void VoxelMean::grow() {
   }
 }
 
-// Points are counted as often as `count_of` says.
 template <typename CountOf>
-void VoxelMean::add_up(const TimedCloud& in, const CountOf& count_of) {
+void VoxelMean::Side::add_up(const TimedCloud& in, const std::vector<std::uint64_t>& keys, std::uint64_t number,
+                             const CountOf& count_of) {
+  start();
   const bool timed = in.timed();
   const bool intense = !in.intensities.empty();
   const std::size_t size = in.size();
@@ -84,18 +89,22 @@ void VoxelMean::add_up(const TimedCloud& in, const CountOf& count_of) {
     return Eigen::Array4f(p.x(), p.y(), p.z(), timed ? in.offsets_s[i] : 0.0F);
   };
   for (std::size_t i = 0; i < size;) {
-    const std::uint64_t key = keys_[i];
-    const std::uint32_t number = number_of(key);
-    if (number == means_.size()) {
-      means_.push_back({point_at(i), Eigen::Array4f::Zero(), 0.0F, 0.0F});
+    const std::uint64_t key = keys[i];
+    if (side_of(key) != number) {
+      ++i;
+      continue;
     }
-    Mean& mean = means_[number];
+    const std::uint32_t place = number_of(key);
+    if (place == means_.size()) {
+      means_.push_back({point_at(i), Eigen::Array4f::Zero(), 0.0F, 0.0F, static_cast<std::uint32_t>(i)});
+    }
+    Mean& mean = means_[place];
     const Eigen::Array4f first = mean.first;
     Eigen::Array4f sum = mean.sum;
     float total = mean.count;
     // Along a beam many points in a row share a voxel.
     const std::size_t begin = i;
-    for (; i < size && keys_[i] == key; ++i) {
+    for (; i < size && keys[i] == key; ++i) {
       const float count = count_of(i);
       sum += count * (point_at(i) - first);
       total += count;
@@ -109,16 +118,20 @@ void VoxelMean::add_up(const TimedCloud& in, const CountOf& count_of) {
     }
     const std::size_t ahead = std::min(i + kAhead, size);
     for (std::size_t k = begin + kAhead; k < ahead; ++k) {
-      if (keys_[k] != keys_[k - 1]) {
-        __builtin_prefetch(&slots_[mix_key(keys_[k]) & (slots_.size() - 1)]);
+      if (keys[k] != keys[k - 1]) {
+        __builtin_prefetch(&slots_[mix_key(keys[k]) & (slots_.size() - 1)]);
       }
     }
   }
 }
 
+template <typename CountOf>
+void VoxelMean::add_up(const TimedCloud& in, const CountOf& count_of) {
+  for_each_index(sides_.size(), [&](std::size_t i) { sides_[i].add_up(in, keys_, i, count_of); });
+}
+
 void VoxelMean::average(const TimedCloud& in, double voxel_m, TimedCloud& out) {
   find_keys(in, voxel_m);
-  start();
   if (in.counts.empty()) {
     add_up(in, [](std::size_t) { return 1.0F; });
   } else {
@@ -127,23 +140,39 @@ void VoxelMean::average(const TimedCloud& in, double voxel_m, TimedCloud& out) {
   write(in, out);
 }
 
+// The sides merged by the first points of their voxels.
 void VoxelMean::write(const TimedCloud& in, TimedCloud& out) const {
   const bool timed = in.timed();
   const bool intense = !in.intensities.empty();
-  out.points.resize(means_.size());
-  out.counts.resize(means_.size());
-  out.offsets_s.resize(timed ? means_.size() : 0);
-  out.intensities.resize(intense ? means_.size() : 0);
-  for (std::size_t n = 0; n < means_.size(); ++n) {
-    const Mean& mean = means_[n];
-    const Eigen::Array4f point = mean.first + mean.sum / mean.count;
-    out.points[n] = point.head<3>();
-    out.counts[n] = mean.count;
-    if (timed) {
-      out.offsets_s[n] = point[3];
-    }
-    if (intense) {
-      out.intensities[n] = mean.intensity_sum / mean.count;
+  std::size_t size = 0;
+  std::array<const Mean*, 2> next{};
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    next[i] = sides_[i].means().data();
+    size += sides_[i].means().size();
+  }
+  out.points.resize(size);
+  out.counts.resize(size);
+  out.offsets_s.resize(timed ? size : 0);
+  out.intensities.resize(intense ? size : 0);
+  constexpr std::uint32_t kEnd = std::numeric_limits<std::uint32_t>::max();
+  const auto first_of = [&](std::size_t i) {
+    const std::vector<Mean>& means = sides_[i].means();
+    return next[i] == means.data() + means.size() ? kEnd : next[i]->first_index;
+  };
+  for (std::size_t n = 0; n < size;) {
+    const std::size_t least = first_of(0) < first_of(1) ? 0 : 1;
+    const std::uint32_t until = first_of(1 - least);
+    for (; first_of(least) < until; ++n, ++next[least]) {
+      const Mean& mean = *next[least];
+      const Eigen::Array4f point = mean.first + mean.sum / mean.count;
+      out.points[n] = point.head<3>();
+      out.counts[n] = mean.count;
+      if (timed) {
+        out.offsets_s[n] = point[3];
+      }
+      if (intense) {
+        out.intensities[n] = mean.intensity_sum / mean.count;
+      }
     }
   }
 }

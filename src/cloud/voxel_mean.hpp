@@ -1,6 +1,7 @@
 // Voxel downsampling: the mean of the points of every voxel.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace rilo {
 
 /// Replaces the points of each voxel by their mean, at their mean offset and intensity. On a plane the mean lies in the
 /// plane, with the noise of one point divided by the root of their number, and over several beams: what a subset would
-/// throw away. The table of visited voxels is reused from call to call. Points must be finite.
+/// throw away. The tables of visited voxels are reused from call to call. Points must be finite.
 class VoxelMean {
  public:
   /// Writes one point per voxel of `voxel_m` to `out`, in the order in which the voxels first appear in `in`. Points
@@ -21,30 +22,47 @@ class VoxelMean {
   void average(const TimedCloud& in, double voxel_m, TimedCloud& out);
 
  private:
-  struct Slot {
-    std::uint64_t key = 0;
-    std::uint32_t generation = 0;  // the slot is taken when this equals generation_
-    std::uint32_t number = 0;      // of the voxel's mean
-  };
   // Sums relative to a voxel's first point: exact in single precision however many there are.
   struct Mean {
     Eigen::Array4f first;  // place and offset
     Eigen::Array4f sum;
     float count;
     float intensity_sum;
+    std::uint32_t first_index;  // of the first point
+  };
+  /// The voxels on the left or on the right of the sensor. The two are worked on in parallel; along a beam, most
+  /// successive points share one.
+  class Side {
+   public:
+    /// Means of the points of `in` whose keys are of the side `number`; points are counted as often as `count_of`
+    /// says.
+    template <typename CountOf>
+    void add_up(const TimedCloud& in, const std::vector<std::uint64_t>& keys, std::uint64_t number,
+                const CountOf& count_of);
+    /// In the order of their first points.
+    const std::vector<Mean>& means() const { return means_; }
+
+   private:
+    struct Slot {
+      std::uint64_t key = 0;
+      std::uint32_t generation = 0;  // the slot is taken when this equals generation_
+      std::uint32_t number = 0;      // of the voxel's mean
+    };
+    void start();
+    std::uint32_t number_of(std::uint64_t key);
+    void grow();
+
+    std::vector<Slot> slots_;
+    std::uint32_t generation_ = 0;
+    std::vector<Mean> means_;
   };
   void find_keys(const TimedCloud& in, double voxel_m);
-  void start();
-  std::uint32_t number_of(std::uint64_t key);
-  void grow();
   template <typename CountOf>
   void add_up(const TimedCloud& in, const CountOf& count_of);
   void write(const TimedCloud& in, TimedCloud& out) const;
 
   std::vector<std::uint64_t> keys_;  // of the points
-  std::vector<Slot> slots_;
-  std::uint32_t generation_ = 0;
-  std::vector<Mean> means_;
+  std::array<Side, 2> sides_;
 };
 
 }  // namespace rilo

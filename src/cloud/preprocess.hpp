@@ -8,6 +8,7 @@
 #include "cloud/beam_angles.hpp"
 #include "cloud/beam_index.hpp"
 #include "cloud/beam_sample.hpp"
+#include "cloud/thinning.hpp"
 #include "cloud/timed_cloud.hpp"
 #include "cloud/voxel_mean.hpp"
 #include "rilo/cloud/sweep.hpp"
@@ -49,6 +50,12 @@ class Preprocessor {
 
   /// How many points the source cloud should have from the next sweep on, instead of config.source_points.
   void set_source_points(double points);
+
+  /// Leaves a share (0 … 1) of the points of both clouds of the sweep prepared last.
+  void thin(double share) {
+    prepared_.source = thinned(prepared_.source, share);
+    prepared_.map_cloud = thinned(prepared_.map_cloud, share);
+  }
 
   void reset();
 

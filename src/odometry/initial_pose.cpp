@@ -18,6 +18,7 @@ constexpr std::size_t kSinglePoints = 5000;  // for candidates that differ by fe
 constexpr double kSearchSigmaM = 0.3;
 constexpr double kSearchShiftStepM = 0.5;  // within the reach of the coarse stage
 constexpr double kSearchYawStepRad = 0.1;
+constexpr double kSearchShare = 0.6;      // of the time left; the coarse stage from what was found needs the rest
 constexpr std::size_t kSearchStarts = 4;  // the cost of each is one coarse registration
 // A cloud compensated for a slightly wrong velocity is as good a target: at either end of a sweep of 0.1 s its points
 // are off by less than the least noise of the coarse stage.
@@ -70,7 +71,7 @@ InitialPose InitialPoseStage::choose(const Situation& situation) {
   if (!doubt && !coarse_.always) {
     return choice;
   }
-  if (situation.time_left && !situation.time_left()) {
+  if (situation.deadline.passed()) {
     choice.coarse_cut = true;
     choice.reason = InitialPoseReason::kNoTime;
     return choice;
@@ -92,16 +93,20 @@ InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bo
   }
   Search found;
   found.best = {predicted.T_odom_lidar, -1.0};
-  try_from(situation, predicted.T_odom_lidar, found);
-  const bool moves = !predicted.T_odom_lidar.isApprox(situation.previous);
-  if (doubt && moves && !is_consistent(found.best.score)) {
-    try_from(situation, situation.previous, found);  // no motion
+  const bool resumed = std::exchange(restarts_due_, false);
+  if (!resumed) {
+    try_from(situation, predicted.T_odom_lidar, found);
+    const bool moves = !predicted.T_odom_lidar.isApprox(situation.previous);
+    if (doubt && moves && !is_consistent(found.best.score)) {
+      try_from(situation, situation.previous, found);  // no motion
+    }
+    restarts_due_ = doubt && found.cut;
   }
   if (doubt && config_.restarts && !found.cut && !is_consistent(found.best.score)) {
     deskew(situation.source, predicted.twist, compensated_);
-    for (const SE3& start : restarts(predicted.T_odom_lidar, situation.map)) {
+    for (const SE3& start : restarts(predicted.T_odom_lidar, situation.map, situation.deadline.after(kSearchShare))) {
       try_from(situation, start, found);
-      if (situation.single) {
+      if (situation.single || resumed) {
         consider(situation, start, found.best);
       }
     }
@@ -110,12 +115,14 @@ InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bo
 }
 
 void InitialPoseStage::try_from(const Situation& situation, const SE3& start, Search& search) {
-  search.cut = search.cut || (search.starts > 0 && situation.time_left && !situation.time_left());
+  search.cut = search.cut || (search.starts > 0 && situation.deadline.passed());
   if (search.cut) {
     return;
   }
   ++search.starts;
-  const CoarseResult result = coarse_registration(*moving_, *target_, situation.previous.inverse() * start, coarse_);
+  const CoarseResult result =
+      coarse_registration(*moving_, *target_, situation.previous.inverse() * start, coarse_, situation.deadline);
+  search.cut = result.cut;
   search.iterations += result.iterations;
   consider(situation, situation.previous * result.T_target_source, search.best);
 }
@@ -177,9 +184,9 @@ std::vector<SE3> InitialPoseStage::places_on_path(const TimedCloud& source, cons
   return places;
 }
 
-std::vector<SE3> InitialPoseStage::restarts(const SE3& centre, const LocalMap& map) const {
+std::vector<SE3> InitialPoseStage::restarts(const SE3& centre, const LocalMap& map, const Deadline& deadline) const {
   const PoseGrid grid{config_.search_shift_m, kSearchShiftStepM, config_.search_yaw_rad, kSearchYawStepRad};
-  return search_poses(compensated_, map, centre, grid, kSearchSigmaM, kSearchStarts);
+  return search_poses(compensated_, map, centre, grid, kSearchSigmaM, kSearchStarts, deadline);
 }
 
 double InitialPoseStage::score(const TimedCloud& source, const MotionState& state, const LocalMap& map) {
@@ -200,6 +207,7 @@ void InitialPoseStage::learn(double score, std::optional<double> residual_rms_m)
 }
 
 void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twist) {
+  restarts_due_ = false;
   target_.reset();
   const Vector6d moved = kHalfSweepS * (twist - moving_twist_);
   if (moving_ && moved.head<3>().norm() < kSameTurnRad && moved.tail<3>().norm() < kSameShiftM) {

@@ -56,9 +56,8 @@ class InitialPoseStage {
     /// The map holds one sweep, compensated for predicted.twist: only a sweep compensated for the same looks like it,
     /// whatever motion its candidate implies.
     bool single;
-    bool in_doubt;  ///< the prediction must not be trusted whatever its score (start, after a loss)
-    /// Called before each start of the coarse stage: whether there is time for it; empty: always.
-    const std::function<bool()>& time_left;
+    bool in_doubt;           ///< the prediction must not be trusted whatever its score (start, after a loss)
+    Deadline deadline = {};  ///< of the coarse stage
   };
 
   /// Chooses the initial pose of a sweep.
@@ -113,7 +112,7 @@ class InitialPoseStage {
   bool is_consistent(double score) const;
   /// Further starts for the coarse stage: the best poses of a search around `centre`, on the sweep as compensated
   /// last.
-  std::vector<SE3> restarts(const SE3& centre, const LocalMap& map) const;
+  std::vector<SE3> restarts(const SE3& centre, const LocalMap& map, const Deadline& deadline) const;
 
   InitialPoseConfig config_;
   CoarseRegistrationConfig coarse_;
@@ -123,6 +122,7 @@ class InitialPoseStage {
   // Of the last sweep, once it is needed; of this one, compensated for moving_twist_, when it was needed.
   std::optional<DistributionCloud> target_;
   std::optional<DistributionCloud> moving_;
+  bool restarts_due_ = false;  // the search of the last sweep found nothing and had no time for them
   Vector6d moving_twist_ = Vector6d::Zero();
   double usual_score_ = 0;
   double usual_rms_m_ = 0;  // of the residuals of registered sweeps

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cloud/thinning.hpp"
 #include "odometry/motion_prior.hpp"
 #include "odometry/sweep_record.hpp"
 #include "registration/uneven_motion.hpp"
@@ -14,6 +15,8 @@ namespace rilo {
 namespace {
 constexpr std::size_t kEstablishedSweeps = 3;  // the prediction needs two motions
 constexpr std::size_t kUnevenStride = 4;       // every fourth point shows the motion within a sweep
+constexpr double kCoarseShare = 0.5;           // of the time left; the rest is for what follows the coarse stage
+constexpr double kLateWork = 2.0;              // a registration that was cut would have taken longer
 
 std::size_t workers(const OdometryConfig& config) {
   const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
@@ -26,7 +29,7 @@ Pipeline::Pipeline(const OdometryConfig& config, Odometry::Clock clock)
       clock_(std::move(clock)),
       workers_(tbb::global_control::max_allowed_parallelism, workers(config)),
       arena_(config.threads > 0 ? config.threads : tbb::task_arena::automatic),
-      budget_(config.budget),
+      budget_(config.budget, config.preprocess.source_points),
       preprocessor_(config.preprocess),
       tracker_(config.prediction, config.prior, config.bounds),
       initial_pose_(config.initial_pose, config.coarse),
@@ -80,15 +83,24 @@ void Pipeline::register_to_map(const PreparedSweep& prepared, SweepResult& resul
 }
 
 const PreparedSweep& Pipeline::prepare(const SweepView& sweep, SweepResult& result) {
-  coarse_starts_ = 0;
   clock_.begin();
+  const bool first = map_.sweeps() == 0;
+  shares_ = budget_.affordable(sweep.points.size(), first, in_doubt());
+  result.stats.points_cut = shares_.cut();
   if (budget_.limited()) {
-    preprocessor_.set_source_points(budget_.point_share() * static_cast<double>(config_.preprocess.source_points));
-    result.stats.points_cut = budget_.point_share() < 1.0;
+    preprocessor_.set_source_points(shares_.source * static_cast<double>(config_.preprocess.source_points));
   }
-  const PreparedSweep& prepared = preprocessor_.prepare(sweep);
+  const SweepView taken = shares_.raw < 1.0 ? thinned(sweep, shares_.raw, thinned_) : sweep;
+  const PreparedSweep& prepared = preprocessor_.prepare(taken);
   record(sweep, prepared, result.stats);
+  if (shares_.source < 1.0) {
+    // The voxel follows from sweep to sweep, the time does not wait.
+    const double wanted = shares_.source * static_cast<double>(config_.preprocess.source_points);
+    thin(prepared, wanted / static_cast<double>(std::max<std::size_t>(prepared.source.size(), 1)), result.stats);
+  }
   result.stats.times.preprocess_ms = clock_.lap_ms();
+  const double passes = first ? TimeBudget::kFirstPasses : 1.0;
+  budget_.learn(Work::kPrepare, passes * static_cast<double>(taken.points.size()), result.stats.times.preprocess_ms);
   const SweepTime time = sweep_clock_.advance(prepared.mid_stamp_ns);
   result.stamp_ns = time.stamp_ns;
   tracker_.advance(time.step_ns);
@@ -107,34 +119,53 @@ MotionState Pipeline::predict(const PreparedSweep& prepared) {
   return predicted;
 }
 
-/// For a second look at a sweep. While the map is not established it is worth being late.
-bool Pipeline::time_left() const {
-  return !budget_.limited() || !established() || budget_.coarse_fits(clock_.total_ms());
+/// When work has to end that leaves so much time for what follows.
+Deadline Pipeline::deadline(double reserve_ms) const {
+  return budget_.limited() ? clock_.deadline(budget_.target_ms() - reserve_ms) : Deadline();
 }
 
 InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const MotionState& predicted,
                                           SweepResult& result) {
   const std::function<Vector6d(const SE3&)> twist_at = [&](const SE3& T) { return tracker_.implied_twist(T); };
-  const std::function<bool()> has_time = [&] { return time_left(); };
   InitialPose init =
       initial_pose_.choose({prepared.source, predicted, tracker_.trusted().T_odom_lidar, twist_at, map_.map(),
-                            map_.first_can_be_compensated(), !established() || tracker_.lost(), has_time});
-  coarse_starts_ = init.coarse_starts;
+                            map_.first_can_be_compensated(), in_doubt(), deadline(0.0).after(kCoarseShare)});
   record(init, result.stats);
   result.stats.times.initial_pose_ms = clock_.lap_ms();
+  if (init.coarse_starts > 0) {
+    const double rest_ms = shares_.source * budget_.ms(Work::kRest);
+    thin(prepared, budget_.share_in_time(rest_ms, budget_.target_ms() - clock_.total_ms()), result.stats);
+  }
   return init;
+}
+
+/// Leaves so many of the points of the present sweep.
+void Pipeline::thin(const PreparedSweep& prepared, double share, SweepStats& stats) {
+  if (share < 1.0) {
+    preprocessor_.thin(share);
+    stats.points_source = prepared.source.size();
+    stats.points_map = prepared.map_cloud.size();
+    stats.points_cut = true;
+  }
 }
 
 Registration Pipeline::register_finely(const PreparedSweep& prepared, const MotionState& predicted,
                                        const InitialPose& init, SweepResult& result) {
   result.stats.sigma_th_m = threshold_.sigma_th_m();
   const double period_s = static_cast<double>(sweep_clock_.period_ns()) * 1e-9;
-  const std::function<bool()> has_time = [&] { return time_left(); };
+  const auto map_points = static_cast<double>(prepared.map_cloud.size());
+  if (map_.sweeps() == 1 && shares_.source < 1.0) {
+    // Its second sweep compensates the first one again and again.
+    map_.thin_first(std::min(1.0, map_points / static_cast<double>(map_.first_points())));
+  }
+  const Deadline end = deadline(budget_.ms(Work::kSettle) + budget_.ms(Work::kInsert, map_points));
   const RegistrationStage stage({config_, prepared, tracker_, map_, initial_pose_, calibration_.pose_by_elevation(),
-                                 threshold_.sigma_th_m(), threshold_.usual_sigma_th_m(), period_s, has_time});
+                                 threshold_.sigma_th_m(), threshold_.usual_sigma_th_m(), period_s, end,
+                                 budget_.ms(Work::kInsert, static_cast<double>(map_.first_points()))});
   Registration registration = stage.run(predicted, init);
   const IcpResult& icp = registration.icp;
   record(icp, result.stats);
+  result.stats.coarse_cut = result.stats.coarse_cut || registration.cut;
   const Eigen::Matrix3d R = icp.state.T_odom_lidar.linear();
   result.translation_evidence = R.transpose() * icp.degeneracy.translation_evidence() * R;
   result.stats.times.registration_ms = clock_.lap_ms();
@@ -179,7 +210,32 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   judge_.accept(prepared);
   initial_pose_.learn(result.stats.map_score, established() ? std::optional(icp.residual_rms_m) : std::nullopt);
   initial_pose_.keep_target(prepared.source, tracker_.state().twist);
-  map_.insert(prepared.map_cloud, tracker_.state(), calibration_.pose_by_elevation());
+  const StageTimes& times = result.stats.times;
+  budget_.learn(Work::kSettle, 1.0,
+                clock_.total_ms() - times.preprocess_ms - times.initial_pose_ms - times.registration_ms);
+  insert(prepared.map_cloud, result,
+         [&](const TimedCloud& cloud) { map_.insert(cloud, tracker_.state(), calibration_.pose_by_elevation()); });
+  if (established() && result.status != OdometryStatus::kRecovered && registration.starts == 1) {
+    const double coarse_ms = result.stats.coarse_ran ? times.initial_pose_ms : 0.0;
+    const double took_ms = clock_.total_ms() - times.preprocess_ms - coarse_ms;
+    const bool late = icp.termination == IcpTermination::kTimeLimit;
+    budget_.learn(Work::kRest, shares_.source, (late ? kLateWork : 1.0) * took_ms);
+  }
+}
+
+/// Puts a sweep into the map, or as many of its points as there is time for.
+void Pipeline::insert(const TimedCloud& cloud, SweepResult& result,
+                      const std::function<void(const TimedCloud&)>& into_map) {
+  const double begin_ms = clock_.total_ms();
+  const auto points = static_cast<double>(cloud.size());
+  const double share = budget_.share_in_time(budget_.ms(Work::kInsert, points), config_.budget.sweep_ms - begin_ms);
+  if (share < 1.0) {
+    result.stats.points_cut = true;
+    into_map(thinned(cloud, share));
+  } else {
+    into_map(cloud);
+  }
+  budget_.learn(Work::kInsert, share * points, clock_.total_ms() - begin_ms);
 }
 
 void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,
@@ -198,7 +254,9 @@ void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted,
 void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result) {
   result.status = OdometryStatus::kInitialising;
   judge_.begin(prepared);
-  map_.begin(prepared.map_cloud, state, prepared.scene_range_m, calibration_.pose_by_elevation());
+  insert(prepared.map_cloud, result, [&](const TimedCloud& cloud) {
+    map_.begin(cloud, state, prepared.scene_range_m, calibration_.pose_by_elevation());
+  });
   tracker_.begin(state);
   initial_pose_.begin(prepared.source, state, map_.map());
 }
@@ -211,8 +269,6 @@ void Pipeline::finish(SweepResult& result) {
   trajectory_.push_back({result.stamp_ns, result.T_odom_lidar});
   result.stats.times.total_ms = clock_.total_ms();
   if (budget_.limited()) {
-    const double coarse_ms = coarse_starts_ > 0 ? result.stats.times.initial_pose_ms : 0.0;
-    budget_.learn(result.stats.times.total_ms, coarse_ms, coarse_starts_);
     result.stats.over_budget = result.stats.times.total_ms > config_.budget.sweep_ms;
   }
 }
@@ -231,8 +287,11 @@ void Pipeline::reset() {
   map_.clear();
   trajectory_.clear();
   fingerprint_ = {};
+  shares_ = {};
   last_step_.setZero();
 }
+
+bool Pipeline::in_doubt() const { return !established() || tracker_.lost(); }
 
 bool Pipeline::established() const { return map_.sweeps() >= kEstablishedSweeps; }
 

@@ -1,6 +1,7 @@
 // The stages of the odometry and the state that they share.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include <tbb/global_control.h>
@@ -50,16 +51,21 @@ class Pipeline {
   void lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,
             SweepResult& result);
   void begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result);
+  void thin(const PreparedSweep& prepared, double share, SweepStats& stats);
+  void insert(const TimedCloud& cloud, SweepResult& result, const std::function<void(const TimedCloud&)>& into_map);
   void finish(SweepResult& result);
 
   bool established() const;
-  bool time_left() const;
+  bool in_doubt() const;
+  Deadline deadline(double reserve_ms) const;
 
   OdometryConfig config_;
   StageClock clock_;
   tbb::global_control workers_;  // more than the machine has when config.threads says so
   tbb::task_arena arena_;
   TimeBudget budget_;
+  PointShares shares_;  // of this sweep
+  Sweep thinned_;
   Preprocessor preprocessor_;
   SweepClock sweep_clock_;
   MotionTracker tracker_;
@@ -73,7 +79,6 @@ class Pipeline {
   Fingerprint fingerprint_;                              // of the last sweep
   bool repeated_ = false;                                // this sweep is the last one again: a driver that hangs
   Eigen::Vector3d last_step_ = Eigen::Vector3d::Zero();  // displacement of the last sweep, sensor frame
-  int coarse_starts_ = 0;                                // of this sweep
 };
 
 }  // namespace rilo

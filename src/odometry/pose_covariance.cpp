@@ -37,6 +37,12 @@ Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6
   to_body.bottomRightCorner<3, 3>() = R.transpose();
   Matrix6d result = to_body * covariance.topLeftCorner<6, 6>() * to_body.transpose();
 
+  if (icp.termination == IcpTermination::kTimeLimit) {
+    // Updates shrink by about a half from one to the next: what is left is about as much as the last one.
+    const Vector6d left = to_body * icp.last_update;
+    result += left * left.transpose();
+  }
+
   squared_change_ += kChangeLearningRate * ((icp.state.twist - before).cwiseAbs2() - squared_change_);
   result.diagonal() += kMeanLag * kMeanLag * sweep_s * sweep_s * squared_change_;
   uneven_ += kChangeLearningRate * (uneven - uneven_);

@@ -68,32 +68,58 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
   }
   Registration found = from(initial, parts_.tracker.prior(refuted), kFirstSweepRounds);
   if (parts_.map.sweeps() == 1) {
-    for (const MotionState& start : other_second_starts(found)) {
-      try_from(start, kNearbyRounds, found);
+    found.cut = search_end_.passed_after(parts_.first_map_ms);
+    if (!found.cut) {
+      try_all(other_second_starts(found), kNearbyRounds, found);
     }
   } else if (parts_.initial_pose.suspicious(found.score, found.icp.residual_rms_m)) {
-    try_places_on_path(predicted, found);
+    found.cut = search_end_.passed();
+    if (!found.cut) {
+      try_all(starts_on_path(predicted), kFirstSweepRounds, found);
+    }
   }
   if (parts_.tracker.lost() && parts_.map.sweeps() > 1) {
     // What was found within a wide gate has to hold within the usual one.
-    const SE3 T_init = found.T_init;
-    found = to_map(found.icp.state, parts_.tracker.prior(found.icp.state), parts_.usual_sigma_th_m);
-    found.T_init = T_init;
+    Registration held =
+        to_map(found.icp.state, parts_.tracker.prior(found.icp.state), parts_.usual_sigma_th_m, parts_.deadline);
+    held.T_init = found.T_init;
+    held.starts = found.starts;
+    held.cut = found.cut;
+    found = std::move(held);
   }
   return found;
 }
 
 /// A second sweep in so many rounds.
 Registration RegistrationStage::from(const MotionState& start, const MotionPrior& prior, int rounds) const {
-  return parts_.map.sweeps() == 1 ? second_sweep(start, prior, rounds) : to_map(start, prior, parts_.sigma_th_m);
+  return parts_.map.sweeps() == 1 ? second_sweep(start, prior, rounds)
+                                  : to_map(start, prior, parts_.sigma_th_m, search_end_);
 }
 
-Registration RegistrationStage::to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m) const {
+Registration RegistrationStage::to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m,
+                                       const Deadline& deadline) const {
   Registration found;
-  found.icp = adaptive_icp(parts_.prepared.source, parts_.map.map(), start, prior, sigma_th_m, parts_.config.icp);
+  found.icp =
+      adaptive_icp(parts_.prepared.source, parts_.map.map(), start, prior, sigma_th_m, parts_.config.icp, deadline);
   found.T_init = start.T_odom_lidar;
   found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, parts_.map.map());
   return found;
+}
+
+/// Registers from further starts while there is time.
+void RegistrationStage::try_all(const std::vector<MotionState>& starts, int rounds, Registration& found) const {
+  int tried = 1;
+  bool cut = false;
+  for (const MotionState& start : starts) {
+    cut = search_end_.passed();
+    if (cut) {
+      break;
+    }
+    try_from(start, rounds, found);
+    ++tried;
+  }
+  found.starts = tried;
+  found.cut = cut;
 }
 
 /// Registers from another start and keeps what ends elsewhere and fits clearly better, or settles where `found` did
@@ -108,14 +134,13 @@ void RegistrationStage::try_from(const MotionState& start, int rounds, Registrat
 }
 
 /// Missing or reordered sweeps lie elsewhere on the path.
-void RegistrationStage::try_places_on_path(const MotionState& predicted, Registration& found) const {
+std::vector<MotionState> RegistrationStage::starts_on_path(const MotionState& predicted) const {
+  std::vector<MotionState> starts;
   for (const SE3& place :
        parts_.initial_pose.places_on_path(parts_.prepared.source, predicted, parts_.period_s, parts_.map.map())) {
-    if (!parts_.time_left()) {
-      return;
-    }
-    try_from({place, parts_.tracker.implied_twist(place)}, kFirstSweepRounds, found);
+    starts.push_back({place, parts_.tracker.implied_twist(place)});
   }
+  return starts;
 }
 
 /// No motion is known at the second sweep, and along a road it has several optima: at rest, too, when most of what it
@@ -133,7 +158,9 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
   }
   std::vector<SampleFit> fits(places.size());
   for_each_index(places.size(), [&](std::size_t i) {
-    fits[i] = fit_of(sample, places[i], or_present(of_first_sweep(places[i].twist)));
+    if (!parts_.deadline.passed_after(parts_.first_map_ms)) {
+      fits[i] = fit_of(sample, places[i], or_present(of_first_sweep(places[i].twist)));
+    }
   });
   const double least =
       settled(found) ? kWorthTrying * fit_of(sample, found.icp.state, or_present(found.map)).quality : 0.0;
@@ -144,7 +171,7 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
     const bool elsewhere = std::all_of(starts.begin(), starts.end(), [&](const MotionState& start) {
       return (start.T_odom_lidar.translation() - fit.T_odom_lidar.translation()).norm() > 0.5 * kSecondStepM;
     });
-    if (elsewhere && fit.quality >= least && starts.size() <= kSecondStarts) {
+    if (elsewhere && fit.quality != kNotTried && fit.quality >= least && starts.size() <= kSecondStarts) {
       starts.push_back({fit.T_odom_lidar, parts_.tracker.implied_twist(fit.T_odom_lidar)});
     }
   }
@@ -155,7 +182,8 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
 RegistrationStage::SampleFit RegistrationStage::fit_of(const TimedCloud& sample, const MotionState& start,
                                                        const LocalMap& map) const {
   Registration fit;
-  fit.icp = adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, parts_.config.icp);
+  fit.icp = adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, parts_.config.icp,
+                         parts_.deadline);
   std::vector<Eigen::Vector3f> points;
   deskew(sample, fit.icp.state.twist, points);
   fit.score = map_score(points, map, fit.icp.state.T_odom_lidar, parts_.config.initial_pose.score_sigma_m);
@@ -184,12 +212,16 @@ Registration RegistrationStage::second_sweep(const MotionState& start, const Mot
   found.T_init = start.T_odom_lidar;
   int iterations = 0;
   for (int round = kFirstSweepRounds - rounds; round < kFirstSweepRounds; ++round) {
+    if (iterations > 0 && parts_.deadline.passed_after(parts_.first_map_ms)) {
+      found.icp.termination = IcpTermination::kTimeLimit;
+      break;
+    }
     // Each round starts nearer.
     const double sigma_m = std::max(std::ldexp(parts_.sigma_th_m, -round), parts_.config.threshold.floor_m);
     found.map = of_first_sweep(found.icp.state.twist);
     const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
-    found.icp =
-        adaptive_icp(parts_.prepared.source, or_present(found.map), found.icp.state, prior, sigma_m, parts_.config.icp);
+    found.icp = adaptive_icp(parts_.prepared.source, or_present(found.map), found.icp.state, prior, sigma_m,
+                             parts_.config.icp, search_end_.after(1.0 / (kFirstSweepRounds - round)));
     iterations += found.icp.iterations;
   }
   found.icp.iterations = iterations;

@@ -1,7 +1,6 @@
 // Fine registration of a sweep from its initial pose (III-D), the second sweep of a map and doubtful fits included.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,6 +20,8 @@ struct Registration {
   SE3 T_init = SE3::Identity();  ///< initial pose of the registration that was kept
   std::optional<LocalMap> map;  ///< second sweep of a map: the first one, compensated with the velocity found, if timed
   double score = 0;             ///< map score at the registered pose
+  int starts = 1;               ///< how many it was chosen from
+  bool cut = false;             ///< no time for further ones
 };
 
 /// Registers one sweep; refers to the state of the odometry, which outlives it.
@@ -35,31 +36,40 @@ class RegistrationStage {
     InitialPoseStage& initial_pose;
     const PoseDerivative& pose_by_elevation;
     double sigma_th_m;
-    double usual_sigma_th_m;                 ///< the same without the growth after failures
-    double period_s;                         ///< usual time between sweeps
-    const std::function<bool()>& time_left;  ///< asked before each further registration
+    double usual_sigma_th_m;  ///< the same without the growth after failures
+    double period_s;          ///< usual time between sweeps
+    Deadline deadline = {};   ///< of the registration
+    double first_map_ms = 0;  ///< how long it takes to compensate the first sweep and put it into a map
   };
-  explicit RegistrationStage(const Parts& parts) : parts_(parts) {}
+  explicit RegistrationStage(const Parts& parts)
+      : parts_(parts), search_end_(parts.tracker.lost() ? parts.deadline.after(kSearchShare) : parts.deadline) {}
 
   Registration run(const MotionState& predicted, const InitialPose& init) const;
 
  private:
   Registration from(const MotionState& start, const MotionPrior& prior, int rounds) const;
-  Registration to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m) const;
+  Registration to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m,
+                      const Deadline& deadline) const;
   Registration second_sweep(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
   std::optional<LocalMap> of_first_sweep(const Vector6d& twist) const;
   const LocalMap& or_present(const std::optional<LocalMap>& compensated) const;
   void try_from(const MotionState& start, int rounds, Registration& found) const;
-  void try_places_on_path(const MotionState& predicted, Registration& found) const;
+  void try_all(const std::vector<MotionState>& starts, int rounds, Registration& found) const;
+  std::vector<MotionState> starts_on_path(const MotionState& predicted) const;
   /// Where a sample of the second sweep comes to rest from a start, and how well it fits there.
   struct SampleFit {
     SE3 T_odom_lidar = SE3::Identity();
-    double quality = 0;
+    double quality = kNotTried;
   };
+  static constexpr double kNotTried = -1.0;
   SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map) const;
   std::vector<MotionState> other_second_starts(const Registration& found) const;
 
+  /// Of the time left; after a loss, what was found has to hold in the rest of it.
+  static constexpr double kSearchShare = 0.7;
+
   Parts parts_;
+  Deadline search_end_;
 };
 
 }  // namespace rilo

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "registration/deadline.hpp"
 #include "rilo/odometry/odometry.hpp"
 
 namespace rilo {
@@ -20,6 +21,9 @@ class StageClock {
 
   /// Since begin().
   double total_ms() const { return static_cast<double>(now() - begin_ns_) * 1e-6; }
+
+  /// So long after begin().
+  Deadline deadline(double after_ms) const { return {clock_, begin_ns_ + static_cast<std::int64_t>(after_ms * 1e6)}; }
 
   /// Since begin() or the last call.
   double lap_ms() {

@@ -1,6 +1,7 @@
 #include "odometry/sweep_map.hpp"
 
 #include "cloud/deskew.hpp"
+#include "cloud/thinning.hpp"
 
 namespace rilo {
 
@@ -21,6 +22,8 @@ void SweepMap::insert(const TimedCloud& cloud, const MotionState& state, const P
   map_.evict(state.T_odom_lidar.translation());
   ++sweeps_;
 }
+
+void SweepMap::thin_first(double share) { first_cloud_ = thinned(first_cloud_, share); }
 
 LocalMap SweepMap::first_compensated(const Vector6d& twist, double scene_range_m,
                                      const PoseDerivative& pose_by_elevation) const {

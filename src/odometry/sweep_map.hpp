@@ -32,6 +32,9 @@ class SweepMap {
 
   /// Whether the only sweep so far carries the times that it takes to compensate it.
   bool first_can_be_compensated() const { return sweeps_ == 1 && first_cloud_.timed(); }
+  /// Leaves a share of the points of that sweep.
+  void thin_first(double share);
+  std::size_t first_points() const { return first_cloud_.size(); }
   /// The map of the first sweep alone, compensated for `twist`.
   LocalMap first_compensated(const Vector6d& twist, double scene_range_m,
                              const PoseDerivative& pose_by_elevation) const;

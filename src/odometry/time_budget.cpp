@@ -1,37 +1,77 @@
 #include "odometry/time_budget.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rilo {
 
 namespace {
-constexpr double kTarget = 0.8;      // of the budget: sweeps differ by about a fifth
-constexpr double kLargestCut = 0.5;  // of the points, from one sweep to the next: one slow sweep is no trend
-constexpr double kRecovery = 1.05;   // growth of the share per sweep while there is time to spare
-constexpr double kSpare = 0.7;       // of the budget: below it there is
-constexpr double kSmoothing = 0.2;   // of the usual times: about five sweeps
+constexpr double kTarget = 0.85;        // of the budget
+constexpr double kMostPreparing = 0.3;  // of the target: beyond it, raw points are left out
+constexpr double kDoubtfulWork = 3.0;  // of a sweep in doubt, against a usual one; not cut it has 6 to 10 times as much
+constexpr double kRate = 0.2;          // of learning: about five sweeps
+constexpr double kSlowest = 2.0;       // times the mean; beyond it a time is an accident rather than a trend
+// Before anything is known: a slow machine; ratios as on all machines and drives measured.
+constexpr double kPrepareGuessMs = 1e-4;
+constexpr double kInsertOverPrepare = 5.0;
+constexpr double kRestOverPrepare = 20.0;  // per source point
 }  // namespace
 
-bool TimeBudget::coarse_fits(double elapsed_ms) const {
-  // What is before the coarse stage has passed already: half of the usual time is a guess of what comes after it.
-  return !limited() || elapsed_ms + coarse_start_ms_ + 0.5 * usual_ms_ <= config_.sweep_ms;
-}
-
-void TimeBudget::learn(double total_ms, double coarse_ms, int coarse_starts) {
-  if (!limited()) {
+void UsualTime::learn(double value) {
+  if (!known()) {
+    mean_ = value;
+    deviation_ = 0.5 * value;
     return;
   }
-  const double usual = total_ms - coarse_ms;
-  usual_ms_ = usual_ms_ > 0.0 ? usual_ms_ + kSmoothing * (usual - usual_ms_) : usual;
-  if (coarse_starts > 0) {
-    const double start = coarse_ms / coarse_starts;
-    coarse_start_ms_ = coarse_start_ms_ > 0.0 ? coarse_start_ms_ + kSmoothing * (start - coarse_start_ms_) : start;
+  const double error = std::min(value, kSlowest * mean_) - mean_;
+  mean_ += kRate * error;
+  deviation_ += kRate * (std::abs(error) - deviation_);
+}
+
+double TimeBudget::target_ms() const { return kTarget * config_.sweep_ms; }
+
+PointShares TimeBudget::affordable(std::size_t raw_points, bool first, bool in_doubt) const {
+  PointShares shares;
+  if (!limited()) {
+    return shares;
   }
-  const double ratio = usual / (kTarget * config_.sweep_ms);
-  if (ratio > 1.0) {
-    share_ = std::max(kLeastShare, share_ * std::max(kLargestCut, 1.0 / ratio));
-  } else if (usual < kSpare * config_.sweep_ms) {
-    share_ = std::min(1.0, share_ * kRecovery);
+  const double passes = first ? kFirstPasses : 1.0;
+  const double prepare_ms = passes * ms(Work::kPrepare, static_cast<double>(raw_points));
+  const double most_ms = kMostPreparing * target_ms();
+  shares.raw = prepare_ms > most_ms ? std::max(kLeastShare, most_ms / prepare_ms) : 1.0;
+  const double rest_ms = ms(Work::kRest) * (in_doubt ? kDoubtfulWork : 1.0);
+  shares.source = std::clamp((target_ms() - shares.raw * prepare_ms) / rest_ms, kLeastShare, 1.0);
+  return shares;
+}
+
+double TimeBudget::share_in_time(double work_ms, double left_ms) const {
+  return !limited() || work_ms <= left_ms ? 1.0 : std::max(kLeastShare, left_ms / work_ms);
+}
+
+double TimeBudget::ms(Work work, double units) const {
+  const UsualTime& time = times_[static_cast<std::size_t>(work)];
+  return units * (time.known() ? time.upper() : guess(work));
+}
+
+double TimeBudget::guess(Work work) const {
+  const UsualTime& prepare = times_[static_cast<std::size_t>(Work::kPrepare)];
+  const double prepare_ms = prepare.known() ? prepare.mean() : kPrepareGuessMs;
+  switch (work) {
+    case Work::kPrepare:
+      return prepare_ms;
+    case Work::kRest:
+      return kRestOverPrepare * source_points_ * prepare_ms;
+    case Work::kInsert:
+      return kInsertOverPrepare * prepare_ms;
+    case Work::kSettle:
+      return 0.0;
+  }
+  return 0.0;
+}
+
+void TimeBudget::learn(Work work, double units, double took_ms) {
+  if (limited() && units > 0.0 && took_ms > 0.0) {
+    times_[static_cast<std::size_t>(work)].learn(took_ms / units);
   }
 }
 

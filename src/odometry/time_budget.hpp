@@ -1,40 +1,79 @@
-// Less work per sweep when time is short.
+// What fits into the time that a sweep may take.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "rilo/odometry/odometry_config.hpp"
 
 namespace rilo {
 
-/// Keeps sweeps within a budget: the next one gets fewer points when the last took too long and more again when there
-/// is time to spare, and the coarse stage is skipped, or aborted, when it would not end in time. Everything stays
-/// reproducible only while nothing is cut, since times are not.
+/// Work whose time is learnt, since it cannot be stopped half-way or has to be left room for.
+enum class Work : std::uint8_t {
+  kPrepare,  ///< preprocessing, per point of the raw sweep
+  kRest,     ///< all that follows on a sweep in no doubt, without the coarse stage; per share of the points
+  kSettle,   ///< from the registration to the insertion into the map
+  kInsert,   ///< insertion into the map, per point
+};
+inline constexpr std::size_t kWorkCount = 4;
+
+/// Usual time with a margin, as TCP reckons its time-outs (Jacobson 1988): the mean and twice the mean deviation of
+/// about the last five.
+class UsualTime {
+ public:
+  bool known() const { return mean_ > 0.0; }
+  double mean() const { return mean_; }
+  double upper() const { return mean_ + 2.0 * deviation_; }
+  void learn(double value);
+
+ private:
+  double mean_ = 0.0;
+  double deviation_ = 0.0;
+};
+
+/// Shares of the points that a sweep can afford, 0 … 1.
+struct PointShares {
+  double raw = 1.0;     ///< of the raw sweep
+  double source = 1.0;  ///< of the configured number of source points
+  bool cut() const { return raw < 1.0 || source < 1.0; }
+};
+
+/// Knows the budget and what work costs. Everything stays reproducible only while nothing is cut, since times are not.
 class TimeBudget {
  public:
-  explicit TimeBudget(const TimeBudgetConfig& config) : config_(config) {}
+  /// @param source_points of a sweep that is not cut.
+  TimeBudget(const TimeBudgetConfig& config, int source_points) : config_(config), source_points_(source_points) {}
 
   bool limited() const { return config_.sweep_ms > 0.0; }
 
-  /// Share of the configured number of points that the next sweep should have, kLeastShare … 1.
-  double point_share() const { return share_; }
+  /// When a sweep should end, after its begin: the rest of the budget is for what cannot be foreseen.
+  double target_ms() const;
 
-  /// Whether one run of the coarse stage, as long as they usually take, would end within the budget; `elapsed_ms`:
-  /// since the sweep began. The rest of the sweep is reckoned with.
-  bool coarse_fits(double elapsed_ms) const;
+  /// What a sweep of so many raw points can afford. One in doubt (the second of a map, one after a loss) needs time to
+  /// be searched for.
+  PointShares affordable(std::size_t raw_points, bool first, bool in_doubt) const;
 
-  /// Learns from a finished sweep: its time, and that of its coarse stage with how many starts it tried.
-  void learn(double total_ms, double coarse_ms, int coarse_starts);
+  /// Share of the points for which work that takes so long for all of them fits into the time left.
+  double share_in_time(double work_ms, double left_ms) const;
 
-  void reset() { *this = TimeBudget(config_); }
+  /// Usual time of so many units of work, with a margin; before the first one a guess, from the work that is known.
+  double ms(Work work, double units = 1.0) const;
 
-  static constexpr double kLeastShare = 0.1;  ///< with fewer points a sweep is not registered reliably
+  /// Learns from finished work.
+  void learn(Work work, double units, double took_ms);
+
+  void reset() { times_ = {}; }
+
+  static constexpr double kLeastShare = 0.1;   ///< with fewer points a sweep is not registered reliably
+  static constexpr double kFirstPasses = 4.0;  ///< the first sweep is prepared as often until its scale is found
 
  private:
+  double guess(Work work) const;
+
   TimeBudgetConfig config_;
-  double share_ = 1.0;
-  double usual_ms_ = 0.0;         // of a sweep without its coarse stage
-  double coarse_start_ms_ = 0.0;  // of one start of the coarse stage, its clouds included
+  double source_points_;
+  std::array<UsualTime, kWorkCount> times_;  // per unit
 };
 
 }  // namespace rilo

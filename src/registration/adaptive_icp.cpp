@@ -115,7 +115,8 @@ class Acceleration {
 }  // namespace
 
 IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial,
-                       const MotionPrior& prior, double sigma_th_m, const AdaptiveIcpConfig& config) {
+                       const MotionPrior& prior, double sigma_th_m, const AdaptiveIcpConfig& config,
+                       const Deadline& deadline) {
   IcpResult result;
   result.state = initial;
   PlaneMatches matches;
@@ -133,6 +134,7 @@ IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const Moti
       break;
     }
     result.state = perturbed(result.state, acceleration.moved(delta, result.posterior_information));
+    result.last_update = delta.head<6>();
     const double tolerance = stride > 1 ? kCoarseTolerance : 1.0;
     const bool small = delta.head<3>().norm() < tolerance * config.rotation_epsilon_rad &&
                        delta.segment<3>(3).norm() < tolerance * config.translation_epsilon_m;
@@ -140,11 +142,16 @@ IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const Moti
       result.termination = IcpTermination::kConverged;
       break;
     }
+    const bool late = deadline.passed();
+    if (late && stride == 1) {
+      result.termination = IcpTermination::kTimeLimit;
+      break;
+    }
     if (result.iterations == kFreezeAfter) {
       matches.freeze();
       result.frozen = true;
     }
-    if (small || result.iterations == config.max_iterations / 2) {
+    if (small || late || result.iterations == config.max_iterations / 2) {
       stride = 1;
       acceleration.restart();
     }

@@ -8,6 +8,7 @@
 
 #include "cloud/timed_cloud.hpp"
 #include "map/local_map.hpp"
+#include "registration/deadline.hpp"
 #include "registration/degeneracy.hpp"
 #include "registration/normal_equations.hpp"
 #include "rilo/geometry/se3.hpp"
@@ -33,6 +34,7 @@ enum class IcpTermination : std::uint8_t {
   kConverged,       ///< the last update was below the thresholds
   kIterationLimit,  ///< it was not, after as many iterations as are allowed
   kSingular,        ///< too few correspondences, or a singular system
+  kTimeLimit,       ///< the deadline passed
 };
 
 /// Result of the registration.
@@ -40,7 +42,8 @@ struct IcpResult {
   MotionState state;
   IcpTermination termination = IcpTermination::kIterationLimit;
   int iterations = 0;
-  bool frozen = false;  ///< points were held to their correspondences for it to converge
+  Vector6d last_update = Vector6d::Zero();  ///< of the pose, perturbation as of MotionPrior
+  bool frozen = false;                      ///< points were held to their correspondences for it to converge
   std::size_t inliers = 0;
   double residual_rms_m = 0;
   Matrix6d lidar_information = Matrix6d::Zero();        ///< of the pose, sweep alone, same perturbation as MotionPrior
@@ -92,8 +95,10 @@ NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const M
 /// Moves `state` by the perturbation [rotation; translation; their rates].
 MotionState perturbed(const MotionState& state, const Vector12d& delta);
 
-/// Aligns `source` with `map` from `initial`, weights from `sigma_th_m`.
+/// Aligns `source` with `map` from `initial`, weights from `sigma_th_m`. After the deadline no iteration begins, but
+/// one of all points is made in any case.
 IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial,
-                       const MotionPrior& prior, double sigma_th_m, const AdaptiveIcpConfig& config);
+                       const MotionPrior& prior, double sigma_th_m, const AdaptiveIcpConfig& config,
+                       const Deadline& deadline = {});
 
 }  // namespace rilo

@@ -73,7 +73,7 @@ CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& t
 }
 
 CoarseResult coarse_registration(const DistributionCloud& source, const DistributionCloud& target, const SE3& initial,
-                                 const CoarseRegistrationConfig& config) {
+                                 const CoarseRegistrationConfig& config, const Deadline& deadline) {
   CoarseResult result;
   result.T_target_source = initial;
   std::vector<std::uint32_t> matches;
@@ -96,6 +96,10 @@ CoarseResult coarse_registration(const DistributionCloud& source, const Distribu
     result.T_target_source = se3_exp(delta) * result.T_target_source;
     if (share >= 1.0 && delta.head<3>().norm() < kRotationEpsilonRad && delta.tail<3>().norm() < kTranslationEpsilonM) {
       result.converged = true;
+      break;
+    }
+    result.cut = result.iterations < config.max_iterations && deadline.passed();
+    if (result.cut) {
       break;
     }
   }

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "cloud/point_grid.hpp"
+#include "registration/deadline.hpp"
 #include "rilo/geometry/se3.hpp"
 #include "rilo/stage_config.hpp"
 
@@ -27,6 +28,7 @@ DistributionCloud make_distribution_cloud(const std::vector<Eigen::Vector3f>& po
 struct CoarseResult {
   SE3 T_target_source = SE3::Identity();  ///< T_align
   bool converged = false;
+  bool cut = false;  ///< ended by the deadline
   int iterations = 0;
   std::size_t pairs = 0;
   double mean_weight = 0;  ///< mean w_m over the source: 1 is a perfect fit
@@ -44,8 +46,8 @@ struct CoarseSums {
 CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& target, const SE3& T_target_source,
                      double noise_m, const CoarseRegistrationConfig& config, std::vector<std::uint32_t>& matches);
 
-/// Algorithm 1 from `initial`.
+/// Algorithm 1 from `initial`. After the deadline no further iteration begins.
 CoarseResult coarse_registration(const DistributionCloud& source, const DistributionCloud& target, const SE3& initial,
-                                 const CoarseRegistrationConfig& config);
+                                 const CoarseRegistrationConfig& config, const Deadline& deadline = {});
 
 }  // namespace rilo

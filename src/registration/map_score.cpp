@@ -1,6 +1,7 @@
 #include "registration/map_score.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "cloud/fixed_chunks.hpp"
@@ -9,11 +10,13 @@ namespace rilo {
 
 namespace {
 
+constexpr double kNotScored = -1.0;
+
 struct Candidate {
   int yaw = 0;
   int x = 0;
   int y = 0;
-  double score = 0;
+  double score = kNotScored;
 };
 
 // A few points rule out most of the nodes; the others are scored again with more points, and so on.
@@ -32,7 +35,7 @@ std::vector<Candidate> grid_nodes(const PoseGrid& grid) {
     for (int x = -shifts; x <= shifts; ++x) {
       for (int y = -shifts; y <= shifts; ++y) {
         if (x * x + y * y <= shifts * shifts) {
-          nodes.push_back({yaw, x, y, 0.0});
+          nodes.push_back({yaw, x, y});
         }
       }
     }
@@ -87,14 +90,21 @@ std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& p
 
 namespace {
 
+int distance2(const Candidate& c) { return c.yaw * c.yaw + c.x * c.x + c.y * c.y; }
+
 /// Scores the nodes and sorts them, best first; among equal scores the smaller motion wins.
 void score_nodes(std::vector<Candidate>& nodes, const std::vector<Eigen::Vector3f>& points, const LocalMap& map,
-                 const SE3& centre, const PoseGrid& grid, double sigma_m) {
+                 const SE3& centre, const PoseGrid& grid, double sigma_m, const Deadline& deadline) {
   const std::size_t level = map.level_of(kVoxelSigmas * sigma_m);
+  std::atomic<bool> late = false;
   for_each_index(nodes.size(), [&](std::size_t i) {
-    nodes[i].score = map_score(points, map, pose_of(nodes[i], centre, grid), sigma_m, level);
+    if (late || deadline.passed()) {
+      late = true;
+      nodes[i].score = kNotScored;
+    } else {
+      nodes[i].score = map_score(points, map, pose_of(nodes[i], centre, grid), sigma_m, level);
+    }
   });
-  const auto distance2 = [](const Candidate& c) { return c.yaw * c.yaw + c.x * c.x + c.y * c.y; };
   std::stable_sort(nodes.begin(), nodes.end(), [&](const Candidate& a, const Candidate& b) {
     return a.score != b.score ? a.score > b.score : distance2(a) < distance2(b);
   });
@@ -103,19 +113,21 @@ void score_nodes(std::vector<Candidate>& nodes, const std::vector<Eigen::Vector3
 }  // namespace
 
 std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre,
-                              const PoseGrid& grid, double sigma_m, std::size_t keep) {
+                              const PoseGrid& grid, double sigma_m, std::size_t keep, const Deadline& deadline) {
   std::vector<Candidate> nodes = grid_nodes(grid);
+  std::stable_sort(nodes.begin(), nodes.end(),
+                   [](const Candidate& a, const Candidate& b) { return distance2(a) < distance2(b); });
   const std::size_t most = std::min(points.size(), kMostPoints);
   for (std::size_t count = kFirstPoints;; count *= kMorePoints) {
-    score_nodes(nodes, evenly_picked(points, std::min(count, most)), map, centre, grid, sigma_m);
-    if (count >= most) {
+    score_nodes(nodes, evenly_picked(points, std::min(count, most)), map, centre, grid, sigma_m, deadline);
+    if (count >= most || deadline.passed()) {
       break;
     }
     nodes.resize(std::max(nodes.size() / kSurvivors, std::min(nodes.size(), kLeastSurvivors)));
   }
   std::vector<Candidate> chosen;
   for (const Candidate& node : nodes) {
-    if (chosen.size() == keep) {
+    if (chosen.size() == keep || node.score == kNotScored) {
       break;
     }
     if (std::none_of(chosen.begin(), chosen.end(), [&](const Candidate& c) { return near_one_another(c, node); })) {

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "map/local_map.hpp"
+#include "registration/deadline.hpp"
 #include "rilo/geometry/se3.hpp"
 
 namespace rilo {
@@ -29,8 +30,8 @@ struct PoseGrid {
 };
 
 /// The `keep` best poses of the grid around `centre` by map_score, best first, no two of them closer than two steps to
-/// each other.
+/// each other. After the deadline no further pose is scored; the nearest ones come first.
 std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre,
-                              const PoseGrid& grid, double sigma_m, std::size_t keep);
+                              const PoseGrid& grid, double sigma_m, std::size_t keep, const Deadline& deadline = {});
 
 }  // namespace rilo

@@ -29,6 +29,15 @@ TEST(PoseCovarianceByHand, AChangeOfVelocityDuringTheSweepCounts) {
   EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.1, Vector6d::Zero())(3, 3), expected, 1e-9);
 }
 
+TEST(PoseCovarianceByHand, WhatARegistrationCutShortHadLeftToMoveCounts) {
+  IcpResult icp = with_information(1e12, 0.0);
+  icp.last_update[3] = 0.2;  // along x of the odometry frame, which is -y of the sensor
+  icp.state.T_odom_lidar.linear() = so3_exp(Eigen::Vector3d(0.0, 0.0, 1.57079632679489662));
+  EXPECT_NEAR(PoseCovariance().of(icp, false, Vector6d::Zero(), 0.0, Vector6d::Zero())(4, 4), 0.0, 1e-9);
+  icp.termination = IcpTermination::kTimeLimit;
+  EXPECT_NEAR(PoseCovariance().of(icp, false, Vector6d::Zero(), 0.0, Vector6d::Zero())(4, 4), 0.04, 1e-9);
+}
+
 TEST(PoseCovarianceByHand, IsInTheSensorsOwnAxes) {
   IcpResult icp;
   icp.posterior_information = Matrix12d::Identity();

@@ -81,6 +81,18 @@ TEST(CoarseRegistrationStart, OneIterationIsNotConverged) {
   EXPECT_EQ(result.iterations, 1);
 }
 
+TEST(CoarseRegistrationStart, TheDeadlineEndsItAndItSaysSo) {
+  const CoarseRegistrationConfig config;
+  const DistributionCloud target = make_distribution_cloud(room(SE3::Identity(), 1), config);
+  std::int64_t now_ns = 0;
+  const Deadline::Clock clock = [&] { return ++now_ns; };
+  const CoarseResult result =
+      coarse_registration(target, target, se3_exp(twist(0, 0, 0.1, 1, 0, 0)), config, Deadline(clock, 3));
+  EXPECT_TRUE(result.cut);
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.iterations, 3);
+}
+
 TEST(CoarseRegistrationHostile, TooFewPointsLeaveTheInitialPose) {
   const CoarseRegistrationConfig config;
   const SE3 initial = se3_exp(twist(0.1, 0.2, 0.3, 1, 2, 3));

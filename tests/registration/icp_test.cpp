@@ -47,6 +47,24 @@ INSTANTIATE_TEST_SUITE_P(Poses, ExactRoom,
                                            twist(0.03, -0.04, 0.02, 0.1, -0.1, 0.15),
                                            twist(-0.02, 0.03, -0.06, -0.2, 0.2, -0.1)));
 
+TEST_F(ExactRoom, AfterTheDeadlineOneIterationOfAllPointsIsMade) {
+  const SE3 truth = se3_exp(twist(0, 0, 0.02, 0.2, 0, 0));
+  const TimedCloud source{test::seen_from(truth, test::rimless_room(0.06, 0.09, 1.3)), {}};
+  ASSERT_GE(source.size(), 4000U) << "begins with a stride";
+  std::int64_t now_ns = 0;
+  const Deadline::Clock clock = [&] { return now_ns += 1'000'000; };
+  const IcpResult late = adaptive_icp(source, map_, {}, {}, 0.5, precise(), Deadline(clock, 0));
+  EXPECT_EQ(late.termination, IcpTermination::kTimeLimit);
+  EXPECT_EQ(late.iterations, 2) << "one with the stride, one of all points";
+  EXPECT_GT(late.inliers, source.size() / 2);
+  EXPECT_GT(late.last_update.norm(), 0.0);
+  EXPECT_LT(distance_m(truth, late.state.T_odom_lidar), 0.2) << "nearer than the start";
+  const IcpResult in_time = adaptive_icp(source, map_, {}, {}, 0.5, precise(), Deadline(clock, now_ns + 1'000'000'000));
+  EXPECT_TRUE(in_time.converged());
+  EXPECT_EQ(in_time.state.T_odom_lidar.matrix(),
+            adaptive_icp(source, map_, {}, {}, 0.5, precise()).state.T_odom_lidar.matrix());
+}
+
 TEST_F(ExactRoom, VelocityIsFoundFromTheTimesOfThePoints) {
   MotionState truth;
   truth.T_odom_lidar = se3_exp(twist(0.01, -0.01, 0.03, 0.1, -0.1, 0.05));

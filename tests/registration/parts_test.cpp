@@ -1,8 +1,10 @@
 // Density filter, covariances, degeneracy and map score: cases that can be worked out by hand.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "registration/covariances.hpp"
 #include "registration/degeneracy.hpp"
@@ -251,6 +253,37 @@ TEST(SearchPoses, FindsAKnownShiftAndTurn) {
   for (std::size_t i = 1; i < best.size(); ++i) {
     EXPECT_TRUE(test::distance_m(best[0], best[i]) > 0.9 || test::angle_deg(best[0], best[i]) > 15.0);
   }
+}
+
+TEST(SearchPoses, AfterTheDeadlineOnlyTheNearestWereScored) {
+  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
+  const auto points = test::seen_from(SE3::Identity(), test::rimless_room(0.6, 0.3, 1.2));
+  const PoseGrid grid{1.5, 0.5, 0.4, 0.1};
+  std::atomic<std::int64_t> now_ns = 0;
+  const Deadline::Clock clock = [&] { return ++now_ns; };
+  EXPECT_TRUE(search_poses(points, map, SE3::Identity(), grid, 0.2, 3, Deadline(clock, 0)).empty());
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const auto best = search_poses(points, map, SE3::Identity(), grid, 0.2, 3, Deadline(clock, now_ns + 6));
+  ASSERT_FALSE(best.empty());
+  for (const SE3& T : best) {
+    EXPECT_LT(T.translation().norm(), 0.6);
+  }
+}
+
+TEST(Deadlines, NeverWithoutAClockAndAShareOfTheTimeLeft) {
+  EXPECT_FALSE(Deadline().passed());
+  EXPECT_FALSE(Deadline().passed_after(1e12));
+  EXPECT_FALSE(Deadline().after(0.0).passed());
+  std::int64_t now_ns = 0;
+  const Deadline::Clock clock = [&] { return now_ns; };
+  const Deadline end(clock, 10'000'000);
+  EXPECT_FALSE(end.passed());
+  EXPECT_FALSE(end.passed_after(9.0));
+  EXPECT_TRUE(end.passed_after(10.0));
+  const Deadline early = end.after(0.4);
+  now_ns = 4'000'000;
+  EXPECT_TRUE(early.passed());
+  EXPECT_FALSE(end.passed());
 }
 
 TEST(SearchPoses, WithoutEvidenceTheSmallestMotionComesFirst) {

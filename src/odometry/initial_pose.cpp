@@ -86,10 +86,11 @@ InitialPose InitialPoseStage::choose(const Situation& situation) {
 
 InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bool doubt) {
   const MotionState& predicted = situation.predicted;
-  moving_ = distribution(compensated_);  // for predicted.twist, since the prediction was scored last
+  moving_ =
+      distribution(compensated_, situation.coarse_share);  // for predicted.twist, since the prediction was scored last
   moving_twist_ = predicted.twist;
   if (!target_) {
-    target_ = distribution(target_points_);
+    target_ = distribution(target_points_, situation.coarse_share);
   }
   Search found;
   found.best = {predicted.T_odom_lidar, -1.0};
@@ -233,12 +234,12 @@ void InitialPoseStage::reset() {
   moving_.reset();
 }
 
-DistributionCloud InitialPoseStage::distribution(const std::vector<Eigen::Vector3f>& points) {
+DistributionCloud InitialPoseStage::distribution(const std::vector<Eigen::Vector3f>& points, double share) {
   std::vector<Eigen::Vector3f> sampled;
   for (const std::uint32_t i : sampler_.sample(points, coarse_.voxel_m)) {
     sampled.push_back(points[i]);
   }
-  return make_distribution_cloud(evenly_picked(sampled, static_cast<std::size_t>(coarse_.max_points)), coarse_);
+  return make_distribution_cloud(evenly_picked(sampled, static_cast<std::size_t>(share * coarse_.max_points)), coarse_);
 }
 
 }  // namespace rilo

@@ -56,8 +56,9 @@ class InitialPoseStage {
     /// The map holds one sweep, compensated for predicted.twist: only a sweep compensated for the same looks like it,
     /// whatever motion its candidate implies.
     bool single;
-    bool in_doubt;           ///< the prediction must not be trusted whatever its score (start, after a loss)
-    Deadline deadline = {};  ///< of the coarse stage
+    bool in_doubt;              ///< the prediction must not be trusted whatever its score (start, after a loss)
+    Deadline deadline = {};     ///< of the coarse stage
+    double coarse_share = 1.0;  ///< of the points of the coarse stage
   };
 
   /// Chooses the initial pose of a sweep.
@@ -107,7 +108,7 @@ class InitialPoseStage {
   /// Score of a candidate: on the sweep compensated for `twist`; with more points in the single case, where the
   /// candidates differ by few of them.
   double candidate_score(const Situation& situation, const SE3& T, const Vector6d& twist);
-  DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points);
+  DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points, double share);
   /// Whether a score is not far below the usual one.
   bool is_consistent(double score) const;
   /// Further starts for the coarse stage: the best poses of a search around `centre`, on the sweep as compensated

@@ -223,9 +223,9 @@ void add_bounds(KeyVisitor& keys, MotionBoundsConfig& c) {
 
 void add_budget(KeyVisitor& keys, TimeBudgetConfig& c) {
   keys.section("budget", "Less work per sweep when time is short; results then depend on the machine");
-  keys.real(
-      {"sweep_ms", "ms", "time per sweep without reading it: beyond it fewer points and no coarse stage; 0: no limit"},
-      c.sweep_ms, 0, 1e6);
+  keys.real({"sweep_ms", "ms",
+             "time of a sweep, without reading it, that is kept: with fewer points, a shorter search; 0: no limit"},
+            c.sweep_ms, 0, 1e6);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kEstablishedSweeps = 3;  // the prediction needs two motions
 constexpr std::size_t kUnevenStride = 4;       // every fourth point shows the motion within a sweep
 constexpr double kCoarseShare = 0.5;           // of the time left; the rest is for what follows the coarse stage
+constexpr double kLeastCoarse = 0.3;           // of its points; with fewer it finds nothing
 constexpr double kLateWork = 2.0;              // a registration that was cut would have taken longer
 
 std::size_t workers(const OdometryConfig& config) {
@@ -127,12 +128,18 @@ Deadline Pipeline::deadline(double reserve_ms) const {
 InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const MotionState& predicted,
                                           SweepResult& result) {
   const std::function<Vector6d(const SE3&)> twist_at = [&](const SE3& T) { return tracker_.implied_twist(T); };
-  InitialPose init =
-      initial_pose_.choose({prepared.source, predicted, tracker_.trusted().T_odom_lidar, twist_at, map_.map(),
-                            map_.first_can_be_compensated(), in_doubt(), deadline(0.0).after(kCoarseShare)});
+  const double left_ms = kCoarseShare * (budget_.target_ms() - clock_.total_ms());
+  const double coarse_share = std::max(kLeastCoarse, budget_.share_in_time(budget_.ms(Work::kCoarseStart), left_ms));
+  InitialPose init = initial_pose_.choose({prepared.source, predicted, tracker_.trusted().T_odom_lidar, twist_at,
+                                           map_.map(), map_.first_can_be_compensated(), in_doubt(),
+                                           deadline(0.0).after(kCoarseShare), coarse_share});
   record(init, result.stats);
   result.stats.times.initial_pose_ms = clock_.lap_ms();
+  if (!init.coarse_cut) {
+    budget_.learn(Work::kCoarseStart, init.coarse_starts * coarse_share, result.stats.times.initial_pose_ms);
+  }
   if (init.coarse_starts > 0) {
+    result.stats.points_cut = result.stats.points_cut || coarse_share < 1.0;
     const double rest_ms = shares_.source * budget_.ms(Work::kRest);
     thin(prepared, budget_.share_in_time(rest_ms, budget_.target_ms() - clock_.total_ms()), result.stats);
   }

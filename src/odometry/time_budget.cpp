@@ -13,6 +13,7 @@ constexpr double kRate = 0.2;          // of learning: about five sweeps
 constexpr double kSlowest = 2.0;       // times the mean; beyond it a time is an accident rather than a trend
 // Before anything is known: a slow machine; ratios as on all machines and drives measured.
 constexpr double kPrepareGuessMs = 1e-4;
+constexpr double kCoarseOverPrepare = 2e5;
 constexpr double kInsertOverPrepare = 5.0;
 constexpr double kRestOverPrepare = 20.0;  // per source point
 }  // namespace
@@ -61,6 +62,8 @@ double TimeBudget::guess(Work work) const {
       return prepare_ms;
     case Work::kRest:
       return kRestOverPrepare * source_points_ * prepare_ms;
+    case Work::kCoarseStart:
+      return kCoarseOverPrepare * prepare_ms;
     case Work::kInsert:
       return kInsertOverPrepare * prepare_ms;
     case Work::kSettle:

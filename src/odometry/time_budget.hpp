@@ -11,12 +11,13 @@ namespace rilo {
 
 /// Work whose time is learnt, since it cannot be stopped half-way or has to be left room for.
 enum class Work : std::uint8_t {
-  kPrepare,  ///< preprocessing, per point of the raw sweep
-  kRest,     ///< all that follows on a sweep in no doubt, without the coarse stage; per share of the points
-  kSettle,   ///< from the registration to the insertion into the map
-  kInsert,   ///< insertion into the map, per point
+  kPrepare,      ///< preprocessing, per point of the raw sweep
+  kRest,         ///< all that follows on a sweep in no doubt, without the coarse stage; per share of the points
+  kCoarseStart,  ///< one start of the coarse stage with all its points, its clouds included
+  kSettle,       ///< from the registration to the insertion into the map
+  kInsert,       ///< insertion into the map, per point
 };
-inline constexpr std::size_t kWorkCount = 4;
+inline constexpr std::size_t kWorkCount = 5;
 
 /// Usual time with a margin, as TCP reckons its time-outs (Jacobson 1988): the mean and twice the mean deviation of
 /// about the last five.

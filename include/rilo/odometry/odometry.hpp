@@ -20,7 +20,7 @@ namespace rilo {
 class Odometry {
  public:
   /// Monotonic time in ns for the stage times in the statistics and for the time budget. The core itself reads no
-  /// clock.
+  /// clock. With a time budget it is called from several threads at once.
   using Clock = std::function<std::int64_t()>;
 
   /// @throws std::invalid_argument when a configuration value is out of range (it is named, with its range), or when

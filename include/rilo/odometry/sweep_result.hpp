@@ -90,7 +90,7 @@ struct SweepStats {
   double beam_elevation_rms_rad = 0;             ///< root mean square of the corrections of single beams, next sweep
   double beam_azimuth_rms_rad = 0;
   bool points_cut = false;   ///< fewer points than configured, because of the time budget
-  bool coarse_cut = false;   ///< the coarse stage was skipped or aborted, because of the time budget
+  bool coarse_cut = false;   ///< the coarse stage or further starts skipped or aborted, because of the time budget
   bool over_budget = false;  ///< the sweep took longer than its budget all the same
   StageTimes times;
 };

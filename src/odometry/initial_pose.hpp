@@ -55,8 +55,8 @@ class InitialPoseStage {
     const LocalMap& map;                                  ///< judges the candidates
     /// The map holds one sweep, compensated for predicted.twist: only a sweep compensated for the same looks like it,
     /// whatever motion its candidate implies.
-    bool single;
-    bool in_doubt;              ///< the prediction must not be trusted whatever its score (start, after a loss)
+    bool single = false;
+    bool in_doubt = false;      ///< the prediction must not be trusted whatever its score (start, after a loss)
     Deadline deadline = {};     ///< of the coarse stage
     double coarse_share = 1.0;  ///< of the points of the coarse stage
   };

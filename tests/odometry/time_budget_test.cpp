@@ -114,7 +114,7 @@ struct Setting {
 };
 
 std::vector<SweepResult> run(const Setting& setting) {
-  static const DriveSimulator drive = short_drive();
+  static const DriveSimulator kDrive = short_drive();
   OdometryConfig config;
   config.budget.sweep_ms = setting.budget_ms;
   config.coarse.always = setting.coarse_always;
@@ -123,11 +123,11 @@ std::vector<SweepResult> run(const Setting& setting) {
   Odometry odometry(config, clock.reader());
   std::vector<SweepResult> results;
   std::int64_t stamp_ns = 0;
-  for (std::size_t i = 0; i < drive.size(); ++i) {
-    if (i > setting.jump_after && i < setting.jump_after + drive.size() / 2) {
+  for (std::size_t i = 0; i < kDrive.size(); ++i) {
+    if (i > setting.jump_after && i < setting.jump_after + kDrive.size() / 2) {
       continue;
     }
-    Sweep sweep = drive.sweep(i).sweep;
+    Sweep sweep = kDrive.sweep(i).sweep;
     sweep.stamp_ns = stamp_ns += 100'000'000;  // no gap shows
     results.push_back(odometry.register_sweep(sweep));
   }

@@ -52,6 +52,11 @@ double quality(const Registration& registration) {
 /// Converged without points that had to be held.
 bool settled(const Registration& registration) { return registration.icp.converged() && !registration.icp.frozen; }
 
+/// Converged where `other` did not, or without points that `other` had to hold.
+bool settles_better(const Registration& registration, const Registration& other) {
+  return (registration.icp.converged() && !other.icp.converged()) || (settled(registration) && !settled(other));
+}
+
 bool same_optimum(const Registration& a, const Registration& b) {
   const SE3 between = a.icp.state.T_odom_lidar.inverse() * b.icp.state.T_odom_lidar;
   return between.translation().norm() <= kSameOptimumM && rotation_angle_rad(between) <= kSameOptimumRad;
@@ -76,6 +81,8 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
     found.cut = search_end_.passed();
     if (!found.cut) {
       try_all(starts_on_path(predicted), kFirstSweepRounds, found);
+      // If only its time is wrong, it moved as its neighbours do, not as the way to it implies.
+      try_all({{found.icp.state.T_odom_lidar, predicted.twist}}, kFirstSweepRounds, found);
     }
   }
   if (parts_.tracker.lost() && parts_.map.sweeps() > 1) {
@@ -108,10 +115,10 @@ Registration RegistrationStage::to_map(const MotionState& start, const MotionPri
 
 /// Registers from further starts while there is time.
 void RegistrationStage::try_all(const std::vector<MotionState>& starts, int rounds, Registration& found) const {
-  int tried = 1;
-  bool cut = false;
+  int tried = found.starts;
+  bool cut = found.cut;
   for (const MotionState& start : starts) {
-    cut = search_end_.passed();
+    cut = cut || search_end_.passed();
     if (cut) {
       break;
     }
@@ -127,7 +134,7 @@ void RegistrationStage::try_all(const std::vector<MotionState>& starts, int roun
 void RegistrationStage::try_from(const MotionState& start, int rounds, Registration& found) const {
   Registration other = from(start, parts_.tracker.prior(start), rounds);
   const double margin = 1.0 + parts_.config.initial_pose.margin;
-  const bool settles = settled(other) && !settled(found) && quality(other) > quality(found);
+  const bool settles = settles_better(other, found) && quality(other) > quality(found);
   if (settles || (!same_optimum(other, found) && quality(other) > margin * quality(found))) {
     found = std::move(other);
   }

@@ -1,0 +1,91 @@
+// A sensor that turns: its turn rate belongs to the sweep, and is not always what the way to the sweep implies.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "rilo/odometry/odometry.hpp"
+
+namespace rilo {
+namespace {
+
+constexpr double kPeriodS = 0.1;
+
+/// Sweeps of a sensor in a room with a pillar, turning about its own axis: yaw = rate t + gain t² / 2.
+class Turning {
+ public:
+  Turning(double rate, double gain) : rate_(rate), gain_(gain) {}
+
+  double yaw(double t_s) const { return rate_ * t_s + 0.5 * gain_ * t_s * t_s; }
+  /// At the middle of the sweep that begins at `t_s`, from that of the sweep at 0.
+  double yaw_of_sweep(double t_s) const { return yaw(t_s + 0.5 * kPeriodS) - yaw(0.5 * kPeriodS); }
+
+  /// 24 beams, 720 columns.
+  Sweep sweep(double t_s, double stamp_s) const {
+    Sweep sweep;
+    sweep.stamp_ns = std::llround(stamp_s * 1e9);
+    std::mt19937 generator(static_cast<unsigned>(1000.0 * t_s));
+    std::normal_distribution<double> noise(0.0, 0.01);
+    for (int column = 0; column < 720; ++column) {
+      const double s = kPeriodS * column / 720.0;
+      const double azimuth = -2.0 * M_PI * column / 720.0;
+      const double heading = yaw(t_s + s) + azimuth;
+      for (int beam = 0; beam < 24; ++beam) {
+        const double elevation = -0.5 + 0.04 * beam;
+        const Eigen::Vector3d ray(std::cos(elevation), 0.0, std::sin(elevation));
+        const auto turned = [&ray](double a) -> Eigen::Vector3d {
+          return Eigen::AngleAxisd(a, Eigen::Vector3d::UnitZ()) * ray;
+        };
+        const double range = range_along(turned(heading)) + noise(generator);
+        sweep.points.emplace_back((range * turned(azimuth)).cast<float>());
+        sweep.times_s.push_back(static_cast<float>(s));
+      }
+    }
+    return sweep;
+  }
+
+ private:
+  static double range_along(const Eigen::Vector3d& ray) {
+    double range = std::numeric_limits<double>::infinity();
+    const Eigen::Vector3d high(6.0, 3.5, 1.4);
+    const Eigen::Vector3d low(-4.0, -5.0, -1.2);
+    for (int axis = 0; axis < 3; ++axis) {
+      range = std::min(range, (ray[axis] > 0.0 ? high[axis] : low[axis]) / ray[axis]);
+    }
+    // The pillar, 0.8 m wide.
+    const Eigen::Vector2d centre(2.5, 1.5);
+    const Eigen::Vector2d flat = ray.head<2>();
+    const double along = flat.dot(centre) / flat.squaredNorm();
+    const double miss2 = (centre - along * flat).squaredNorm();
+    if (along > 0.0 && miss2 < 0.16) {
+      range = std::min(range, along - std::sqrt((0.16 - miss2) / flat.squaredNorm()));
+    }
+    return range;
+  }
+
+  double rate_;
+  double gain_;
+};
+
+double yaw_error(const SweepResult& result, double yaw) {
+  return rotation_angle_rad(SE3(Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ())) * result.T_odom_lidar);
+}
+
+TEST(Turning, ASweepOfAnotherTimeTurnsAsItsNeighboursDo) {
+  const Turning turning(1.05, 0.0);
+  Odometry odometry({});
+  for (int i = 0; i < 25; ++i) {
+    const int taken = i >= 12 && i < 17 ? 28 - i : i;  // five in reverse order
+    const SweepResult result = odometry.register_sweep(turning.sweep(kPeriodS * taken, kPeriodS * i));
+    if (result.status != OdometryStatus::kLost) {
+      EXPECT_LT(yaw_error(result, turning.yaw_of_sweep(kPeriodS * taken)), 0.01)
+          << i << ' ' << to_string(result.status);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rilo

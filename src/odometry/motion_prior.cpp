@@ -40,12 +40,13 @@ MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_
   density.tail<3>().setConstant(config.acceleration_m_s2 * config.acceleration_m_s2 * kUnitTimeS);
   const Matrix6d Q = density.asDiagonal();
   const Matrix6d& V = velocity_covariance;
+  const double lag_s = std::abs(dt_s);  // a random walk is one backwards, too
   const double dt2 = dt_s * dt_s;
   Matrix12d P;
-  P.topLeftCorner<6, 6>() = dt2 * V + dt2 * dt_s / 3.0 * Q;
-  P.topRightCorner<6, 6>() = dt_s * V + dt2 / 2.0 * Q;
+  P.topLeftCorner<6, 6>() = dt2 * V + dt2 * lag_s / 3.0 * Q;
+  P.topRightCorner<6, 6>() = dt_s * V + dt_s * lag_s / 2.0 * Q;
   P.bottomLeftCorner<6, 6>() = P.topRightCorner<6, 6>().transpose();
-  P.bottomRightCorner<6, 6>() = V + dt_s * Q;
+  P.bottomRightCorner<6, 6>() = V + lag_s * Q;
   const Matrix12d information = P.ldlt().solve(Matrix12d::Identity());
   prior.information = 0.5 * (information + information.transpose());
   return prior;

@@ -12,7 +12,7 @@ Matrix6d unknown_velocity_covariance();
 /// Prior of pose and velocity `dt_s` after a pose taken as certain (odometry is relative) with the velocity covariance
 /// `velocity_covariance` [rad/s; m/s]; the velocity performs a random walk. `predicted` is the mean. It holds the
 /// directions that a sweep does not constrain, and it ties the velocity during the sweep to the displacement since the
-/// last. Zero information when off.
+/// last. `dt_s` < 0: the state so long before. Zero information when off.
 MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s,
                          const MotionPriorConfig& config);
 

@@ -11,6 +11,11 @@ namespace rilo {
 namespace {
 constexpr std::size_t kRememberedPoses = 3;  // (III-B)
 constexpr double kStaleSteps = 3.0;          // after a loss this long the motion before is no evidence
+
+Matrix6d velocity_covariance_of(const IcpResult& icp) {
+  const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());
+  return covariance.bottomRightCorner<6, 6>();
+}
 }  // namespace
 
 MotionState MotionTracker::predicted(double sigma_th_m) const {
@@ -46,6 +51,12 @@ MotionPrior MotionTracker::prior(const std::optional<MotionState>& refuted) cons
     return motion_prior(*refuted, unknown_velocity_covariance(), dt_s, config);
   }
   return motion_prior(expected_motion(trusted_state_, dt_s), velocity_covariance_, dt_s, config);
+}
+
+MotionPrior MotionTracker::prior_before(const IcpResult& present) const {
+  const double dt_s = -since_trusted_s();
+  const SE3 T_before = present.state.T_odom_lidar * se3_exp(dt_s * present.state.twist);
+  return motion_prior({T_before, present.state.twist}, velocity_covariance_of(present), dt_s, prior_config_);
 }
 
 MotionVerdict MotionTracker::weigh(const SE3& T_odom_lidar) const {
@@ -107,8 +118,7 @@ Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdic
   } else {
     step_ = motion;
     step_s_ = dt_s;
-    const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());
-    velocity_covariance_ = covariance.bottomRightCorner<6, 6>();
+    velocity_covariance_ = velocity_covariance_of(icp);
   }
   claim_.reset();
   lost_ = false;

@@ -44,6 +44,8 @@ class MotionTracker {
   Vector6d implied_twist(const SE3& T_odom_lidar) const;
   /// Prior of the registration; `refuted`: start there, the motion so far does not count.
   MotionPrior prior(const std::optional<MotionState>& refuted) const;
+  /// Prior of the last accepted sweep, from the present one as registered.
+  MotionPrior prior_before(const IcpResult& present) const;
 
   MotionVerdict weigh(const SE3& T_odom_lidar) const;
 

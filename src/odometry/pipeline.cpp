@@ -163,12 +163,13 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
   const auto map_points = static_cast<double>(prepared.map_cloud.size());
   if (map_.sweeps() == 1 && shares_.source < 1.0) {
     // Its second sweep compensates the first one again and again.
-    map_.thin_first(std::min(1.0, map_points / static_cast<double>(map_.first_points())));
+    map_.thin_first(std::min(1.0, map_points / static_cast<double>(map_.first_cloud().size())));
   }
   const Deadline end = deadline(budget_.ms(Work::kSettle) + budget_.ms(Work::kInsert, map_points));
-  const RegistrationStage stage({config_, prepared, tracker_, map_, initial_pose_, calibration_.pose_by_elevation(),
-                                 threshold_.sigma_th_m(), threshold_.usual_sigma_th_m(), period_s, end,
-                                 budget_.ms(Work::kInsert, static_cast<double>(map_.first_points()))});
+  const RegistrationStage stage(
+      {config_, prepared, tracker_, map_, initial_pose_, calibration_.pose_by_elevation(), threshold_.sigma_th_m(),
+       threshold_.usual_sigma_th_m(), period_s, end,
+       budget_.ms(Work::kInsert, static_cast<double>(map_.first_cloud().size()) + map_points)});
   Registration registration = stage.run(predicted, init);
   const IcpResult& icp = registration.icp;
   record(icp, result.stats);
@@ -192,14 +193,18 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
                       SweepResult& result) {
   const IcpResult& icp = registration.icp;
   const double sigma_th_m = threshold_.sigma_th_m();
-  if (registration.map) {
-    map_.replace(std::move(*registration.map));
+  Vector6d twist_before = tracker_.trusted().twist;
+  if (registration.first) {
+    twist_before = registration.first->twist;  // the map began with a guess
+    if (registration.first->map) {
+      map_.replace(std::move(*registration.first->map));
+    }
   }
 
   const bool degenerate = result.status == OdometryStatus::kDegenerate;
   const Vector6d uneven = uneven_motion(prepared.source, map_.map(), icp, sigma_th_m, config_.icp,
                                         PoseCovariance::evidence_share(config_.icp), kUnevenStride);
-  result.covariance = pose_covariance_.of(icp, degenerate, tracker_.trusted().twist,
+  result.covariance = pose_covariance_.of(icp, degenerate, twist_before,
                                           prepared.source.timed() ? tracker_.since_trusted_s() : 0.0, uneven);
   const Eigen::Vector3d step = tracker_.accept(icp, motion, degenerate);
 

@@ -170,7 +170,7 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
     }
   });
   const double least =
-      settled(found) ? kWorthTrying * fit_of(sample, found.icp.state, or_present(found.map)).quality : 0.0;
+      settled(found) ? kWorthTrying * fit_of(sample, found.icp.state, or_present(found.first->map)).quality : 0.0;
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SampleFit& a, const SampleFit& b) { return a.quality > b.quality; });
   std::vector<MotionState> starts = {found.icp.state};
@@ -210,14 +210,25 @@ const LocalMap& RegistrationStage::or_present(const std::optional<LocalMap>& com
   return compensated ? *compensated : parts_.map.map();
 }
 
+/// The first sweep, registered to the second one.
+IcpResult RegistrationStage::first_to_second(const IcpResult& second, double sigma_m, const Deadline& deadline) const {
+  const LocalMap map = parts_.map.of_sweep(parts_.prepared.map_cloud, second.state, parts_.prepared.scene_range_m,
+                                           parts_.pose_by_elevation);
+  const MotionState start{parts_.tracker.trusted().T_odom_lidar, second.state.twist};
+  return adaptive_icp(parts_.map.first_cloud(), map, start, parts_.tracker.prior_before(second), sigma_m,
+                      parts_.config.icp, deadline);
+}
+
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the
-/// second one implies, which the registration refines.
+/// start implies, then with its own: a sensor that speeds up or turns in between has another at the second sweep. The
+/// pose found beside it says nothing, since the first sweep is where the map begins.
 Registration RegistrationStage::second_sweep(const MotionState& start, const MotionPrior& first_prior,
                                              int rounds) const {
   Registration found;
   found.icp.state = start;
   found.T_init = start.T_odom_lidar;
   int iterations = 0;
+  Vector6d twist = start.twist;
   for (int round = kFirstSweepRounds - rounds; round < kFirstSweepRounds; ++round) {
     if (iterations > 0 && parts_.deadline.passed_after(parts_.first_map_ms)) {
       found.icp.termination = IcpTermination::kTimeLimit;
@@ -225,14 +236,17 @@ Registration RegistrationStage::second_sweep(const MotionState& start, const Mot
     }
     // Each round starts nearer.
     const double sigma_m = std::max(std::ldexp(parts_.sigma_th_m, -round), parts_.config.threshold.floor_m);
-    found.map = of_first_sweep(found.icp.state.twist);
+    found.first = FirstSweep{of_first_sweep(twist), twist, {}};
     const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
-    found.icp = adaptive_icp(parts_.prepared.source, or_present(found.map), found.icp.state, prior, sigma_m,
-                             parts_.config.icp, search_end_.after(1.0 / (kFirstSweepRounds - round)));
+    const Deadline round_end = search_end_.after(1.0 / (kFirstSweepRounds - round));
+    found.icp = adaptive_icp(parts_.prepared.source, or_present(found.first->map), found.icp.state, prior, sigma_m,
+                             parts_.config.icp, round_end.after(0.5));
     iterations += found.icp.iterations;
+    found.first->to_second = first_to_second(found.icp, sigma_m, round_end);
+    twist = (found.first->to_second.converged() ? found.first->to_second : found.icp).state.twist;
   }
   found.icp.iterations = iterations;
-  found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, or_present(found.map));
+  found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, or_present(found.first->map));
   return found;
 }
 

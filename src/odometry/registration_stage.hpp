@@ -14,14 +14,21 @@
 
 namespace rilo {
 
+/// What the second sweep of a map says of the first one.
+struct FirstSweep {
+  std::optional<LocalMap> map;        ///< of it alone, compensated with `twist`, if timed
+  Vector6d twist = Vector6d::Zero();  ///< body velocity [rad/s; m/s]
+  IcpResult to_second;                ///< its registration to the second sweep
+};
+
 /// A sweep as registered, before it is judged.
 struct Registration {
   IcpResult icp;
-  SE3 T_init = SE3::Identity();  ///< initial pose of the registration that was kept
-  std::optional<LocalMap> map;  ///< second sweep of a map: the first one, compensated with the velocity found, if timed
-  double score = 0;             ///< map score at the registered pose
-  int starts = 1;               ///< how many it was chosen from
-  bool cut = false;             ///< no time for further ones
+  SE3 T_init = SE3::Identity();     ///< initial pose of the registration that was kept
+  std::optional<FirstSweep> first;  ///< second sweep of a map
+  double score = 0;                 ///< map score at the registered pose
+  int starts = 1;                   ///< how many it was chosen from
+  bool cut = false;                 ///< no time for further ones
 };
 
 /// Registers one sweep; refers to the state of the odometry, which outlives it.
@@ -39,7 +46,7 @@ class RegistrationStage {
     double usual_sigma_th_m;  ///< the same without the growth after failures
     double period_s;          ///< usual time between sweeps
     Deadline deadline = {};   ///< of the registration
-    double first_map_ms = 0;  ///< how long it takes to compensate the first sweep and put it into a map
+    double first_map_ms = 0;  ///< how long it takes to put the first sweep into a map, and this one
   };
   explicit RegistrationStage(const Parts& parts)
       : parts_(parts), search_end_(parts.tracker.lost() ? parts.deadline.after(kSearchShare) : parts.deadline) {}
@@ -52,6 +59,7 @@ class RegistrationStage {
                       const Deadline& deadline) const;
   Registration second_sweep(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
   std::optional<LocalMap> of_first_sweep(const Vector6d& twist) const;
+  IcpResult first_to_second(const IcpResult& second, double sigma_m, const Deadline& deadline) const;
   const LocalMap& or_present(const std::optional<LocalMap>& compensated) const;
   void try_from(const MotionState& start, int rounds, Registration& found) const;
   void try_all(const std::vector<MotionState>& starts, int rounds, Registration& found) const;

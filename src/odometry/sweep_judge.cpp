@@ -13,7 +13,9 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   Evidence evidence;
   evidence.source_points = prepared.source.size();
   evidence.score = registration.score;
-  evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
+  if (registration.first && begun_in_a_row_ <= kMostBeginnings) {
+    evidence.first_to_second = registration.first->to_second;
+  }
   evidence.young_map = before.map_sweeps > 1 && before.map_sweeps < kYoungSweeps;
   evidence.usual_score = before.usual_score;
   evidence.was_lost = before.was_lost;

@@ -27,11 +27,16 @@ void SweepMap::thin_first(double share) { first_cloud_ = thinned(first_cloud_, s
 
 LocalMap SweepMap::first_compensated(const Vector6d& twist, double scene_range_m,
                                      const PoseDerivative& pose_by_elevation) const {
+  return of_sweep(first_cloud_, {T_odom_first_, twist}, scene_range_m, pose_by_elevation);
+}
+
+LocalMap SweepMap::of_sweep(const TimedCloud& cloud, const MotionState& state, double scene_range_m,
+                            const PoseDerivative& pose_by_elevation) const {
   LocalMap map(config_);
   map.set_scene_range(scene_range_m);
   std::vector<Eigen::Vector3f> points;
-  deskew(first_cloud_, twist, points);
-  map.insert(points, T_odom_first_, pose_by_elevation);
+  deskew(cloud, state.twist, points);
+  map.insert(points, state.T_odom_lidar, pose_by_elevation);
   return map;
 }
 

@@ -34,10 +34,13 @@ class SweepMap {
   bool first_can_be_compensated() const { return sweeps_ == 1 && first_cloud_.timed(); }
   /// Leaves a share of the points of that sweep.
   void thin_first(double share);
-  std::size_t first_points() const { return first_cloud_.size(); }
+  const TimedCloud& first_cloud() const { return first_cloud_; }
   /// The map of the first sweep alone, compensated for `twist`.
   LocalMap first_compensated(const Vector6d& twist, double scene_range_m,
                              const PoseDerivative& pose_by_elevation) const;
+  /// A map of one sweep alone.
+  LocalMap of_sweep(const TimedCloud& cloud, const MotionState& state, double scene_range_m,
+                    const PoseDerivative& pose_by_elevation) const;
   void replace(LocalMap map) { map_ = std::move(map); }
 
   void clear();

@@ -22,6 +22,16 @@ TEST(MotionPrior, CovarianceOfPoseAndVelocity) {
   EXPECT_NEAR(P(9, 9), 0.04 + kDt * q, 1e-9);
 }
 
+TEST(MotionPrior, BackwardsTheVelocityMovesThePoseTheOtherWay) {
+  const Matrix6d V = 0.04 * Matrix6d::Identity();
+  const Matrix12d after = motion_prior({}, V, 0.2, {}).information;
+  const Matrix12d before = motion_prior({}, V, -0.2, {}).information;
+  Matrix12d mirrored = after;
+  mirrored.topRightCorner<6, 6>() *= -1.0;
+  mirrored.bottomLeftCorner<6, 6>() *= -1.0;
+  EXPECT_TRUE(before.isApprox(mirrored, 1e-12));
+}
+
 TEST(MotionPrior, SpeedGoesOnAndTurningFades) {
   MotionState last;
   last.twist << 0.0, 0.0, 1.0, 10.0, 0.0, 0.0;

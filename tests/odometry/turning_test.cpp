@@ -74,6 +74,15 @@ double yaw_error(const SweepResult& result, double yaw) {
   return rotation_angle_rad(SE3(Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ())) * result.T_odom_lidar);
 }
 
+TEST(Turning, TheFirstSweepHasAVelocityOfItsOwn) {
+  const Turning turning(1.5, -3.0);  // at 1.35 and -0.15 rad/s in the middles of the two sweeps
+  Odometry odometry({});
+  odometry.register_sweep(turning.sweep(0.0, 0.0));
+  const SweepResult second = odometry.register_sweep(turning.sweep(0.5, 0.5));
+  EXPECT_EQ(second.status, OdometryStatus::kOk);
+  EXPECT_LT(yaw_error(second, turning.yaw_of_sweep(0.5)), 0.005);
+}
+
 TEST(Turning, ASweepOfAnotherTimeTurnsAsItsNeighboursDo) {
   const Turning turning(1.05, 0.0);
   Odometry odometry({});

@@ -15,23 +15,17 @@ constexpr double kRecoveryShare = 0.94;
 bool is_degenerate(const IcpResult& icp, const HealthConfig& config) {
   return icp.degeneracy.relative_eigenvalues[0] < config.degenerate_ratio;
 }
-
-bool comes_to_rest(const IcpResult& icp) {
-  return icp.converged() || (icp.termination == IcpTermination::kIterationLimit && icp.iterations < kEnoughIterations);
-}
-
-/// Along a road with little to hold on to a sweep fits metres off, too, but not from both sides.
-bool constrains_all(const IcpResult& icp, const HealthConfig& config) {
-  return comes_to_rest(icp) && !icp.frozen && !is_degenerate(icp, config);
-}
 }  // namespace
 
 bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
-  if (!comes_to_rest(icp) || evidence.shrunk) {
+  if (icp.termination == IcpTermination::kSingular || evidence.shrunk) {
     return false;
   }
-  if (evidence.first_to_second && !(constrains_all(icp, config) && constrains_all(*evidence.first_to_second, config))) {
+  if (!icp.converged() && icp.iterations >= kEnoughIterations) {
     return false;
+  }
+  if (evidence.second_sweep && (icp.frozen || is_degenerate(icp, config))) {
+    return false;  // along a road with little to hold on to it fits metres off, too
   }
   const double share = (evidence.was_lost ? kRecoveryShare : 1.0) * config.lost_share;
   const double expected = (evidence.young_map ? kYoungShare : 1.0) * evidence.usual_score;

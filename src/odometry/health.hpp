@@ -1,8 +1,6 @@
 // How far a registration can be trusted.
 #pragma once
 
-#include <optional>
-
 #include "registration/adaptive_icp.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 #include "rilo/odometry/sweep_result.hpp"
@@ -18,8 +16,7 @@ struct Evidence {
   bool young_map = false;       ///< the map has few sweeps: it explains less than usual
   bool shrunk = false;          ///< the place is much smaller than one sweep before: something covers the sensor
   bool possible_motion = true;  ///< a sensor can have moved to the pose
-  /// Second sweep of a map, when there is no usual score to judge it by: the first one, registered to it.
-  std::optional<IcpResult> first_to_second;
+  bool second_sweep = false;    ///< of the map: there is no usual score to judge it by
 };
 
 /// Status of a registered sweep.

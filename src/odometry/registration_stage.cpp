@@ -16,9 +16,10 @@ namespace {
 constexpr int kFirstSweepRounds = 3;  // each compensates the first sweep with the velocity of the round before
 constexpr int kNearbyRounds = 2;      // the last ones: the wide gate of the first may leave the basin of the start
 // Starts of the second sweep along the direction that it constrains least. The basin of an optimum on a road is about
-// a metre wide, and three steps a sweep are 135 km/h.
+// a metre wide.
 constexpr double kSecondStepM = 1.25;
-constexpr int kSecondSteps = 3;
+constexpr double kSecondSpeed = 37.5;     // m/s, 135 km/h: so far do the starts reach, ...
+constexpr double kSecondReachM = 40.0;    // ... but not where two sweeps share too little
 constexpr std::size_t kSecondStride = 8;  // a sample shows which basins are the best ones
 constexpr std::size_t kSecondStarts = 2;  // of which so many are tried with all points ...
 // ... if they fit the sample about as well as what was found: on 155 second sweeps those that won had at least 0.99 of
@@ -158,7 +159,9 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
   const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
   const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
   std::vector<MotionState> places;
-  for (int k = -kSecondSteps; k <= kSecondSteps; ++k) {
+  const double reach_m = std::min(kSecondSpeed * parts_.tracker.since_trusted_s(), kSecondReachM);
+  const auto steps = static_cast<int>(std::lround(reach_m / kSecondStepM));
+  for (int k = -steps; k <= steps; ++k) {
     SE3 place = parts_.tracker.trusted().T_odom_lidar;
     place.translation() += k * kSecondStepM * weakest;
     places.push_back({place, parts_.tracker.implied_twist(place)});
@@ -210,18 +213,19 @@ const LocalMap& RegistrationStage::or_present(const std::optional<LocalMap>& com
   return compensated ? *compensated : parts_.map.map();
 }
 
-/// The first sweep, registered to the second one.
-IcpResult RegistrationStage::first_to_second(const IcpResult& second, double sigma_m, const Deadline& deadline) const {
+/// Velocity of the first sweep, from its registration to the second one: a sensor that speeds up or turns in between
+/// has another. The pose found beside it says nothing, since the first sweep is where the map begins.
+Vector6d RegistrationStage::twist_of_first(const IcpResult& second, double sigma_m, const Deadline& deadline) const {
   const LocalMap map = parts_.map.of_sweep(parts_.prepared.map_cloud, second.state, parts_.prepared.scene_range_m,
                                            parts_.pose_by_elevation);
   const MotionState start{parts_.tracker.trusted().T_odom_lidar, second.state.twist};
-  return adaptive_icp(parts_.map.first_cloud(), map, start, parts_.tracker.prior_before(second), sigma_m,
-                      parts_.config.icp, deadline);
+  const IcpResult first = adaptive_icp(parts_.map.first_cloud(), map, start, parts_.tracker.prior_before(second),
+                                       sigma_m, parts_.config.icp, deadline);
+  return (first.converged() ? first : second).state.twist;
 }
 
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the
-/// start implies, then with its own: a sensor that speeds up or turns in between has another at the second sweep. The
-/// pose found beside it says nothing, since the first sweep is where the map begins.
+/// start implies, then with its own.
 Registration RegistrationStage::second_sweep(const MotionState& start, const MotionPrior& first_prior,
                                              int rounds) const {
   Registration found;
@@ -236,14 +240,15 @@ Registration RegistrationStage::second_sweep(const MotionState& start, const Mot
     }
     // Each round starts nearer.
     const double sigma_m = std::max(std::ldexp(parts_.sigma_th_m, -round), parts_.config.threshold.floor_m);
-    found.first = FirstSweep{of_first_sweep(twist), twist, {}};
-    const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
     const Deadline round_end = search_end_.after(1.0 / (kFirstSweepRounds - round));
+    if (iterations > 0 && parts_.map.first_can_be_compensated()) {
+      twist = twist_of_first(found.icp, sigma_m, round_end.after(0.5));
+    }
+    found.first = FirstSweep{of_first_sweep(twist), twist};
+    const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
     found.icp = adaptive_icp(parts_.prepared.source, or_present(found.first->map), found.icp.state, prior, sigma_m,
-                             parts_.config.icp, round_end.after(0.5));
+                             parts_.config.icp, round_end);
     iterations += found.icp.iterations;
-    found.first->to_second = first_to_second(found.icp, sigma_m, round_end);
-    twist = (found.first->to_second.converged() ? found.first->to_second : found.icp).state.twist;
   }
   found.icp.iterations = iterations;
   found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, or_present(found.first->map));

@@ -14,11 +14,10 @@
 
 namespace rilo {
 
-/// What the second sweep of a map says of the first one.
+/// The first sweep of a map, as the second one shows it.
 struct FirstSweep {
   std::optional<LocalMap> map;        ///< of it alone, compensated with `twist`, if timed
   Vector6d twist = Vector6d::Zero();  ///< body velocity [rad/s; m/s]
-  IcpResult to_second;                ///< its registration to the second sweep
 };
 
 /// A sweep as registered, before it is judged.
@@ -59,7 +58,7 @@ class RegistrationStage {
                       const Deadline& deadline) const;
   Registration second_sweep(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
   std::optional<LocalMap> of_first_sweep(const Vector6d& twist) const;
-  IcpResult first_to_second(const IcpResult& second, double sigma_m, const Deadline& deadline) const;
+  Vector6d twist_of_first(const IcpResult& second, double sigma_m, const Deadline& deadline) const;
   const LocalMap& or_present(const std::optional<LocalMap>& compensated) const;
   void try_from(const MotionState& start, int rounds, Registration& found) const;
   void try_all(const std::vector<MotionState>& starts, int rounds, Registration& found) const;

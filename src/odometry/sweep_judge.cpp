@@ -13,9 +13,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   Evidence evidence;
   evidence.source_points = prepared.source.size();
   evidence.score = registration.score;
-  if (registration.first && begun_in_a_row_ <= kMostBeginnings) {
-    evidence.first_to_second = registration.first->to_second;
-  }
+  evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
   evidence.young_map = before.map_sweeps > 1 && before.map_sweeps < kYoungSweeps;
   evidence.usual_score = before.usual_score;
   evidence.was_lost = before.was_lost;

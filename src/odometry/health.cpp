@@ -18,7 +18,7 @@ bool is_degenerate(const IcpResult& icp, const HealthConfig& config) {
 }  // namespace
 
 bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
-  if (icp.termination == IcpTermination::kSingular || evidence.shrunk) {
+  if (icp.termination == IcpTermination::kSingular || evidence.shrunk || evidence.cut_off) {
     return false;
   }
   if (!icp.converged() && icp.iterations >= kEnoughIterations) {

@@ -15,6 +15,7 @@ struct Evidence {
   bool was_lost = false;        ///< the sweep before was lost
   bool young_map = false;       ///< the map has few sweeps: it explains less than usual
   bool shrunk = false;          ///< the place is much smaller than one sweep before: something covers the sensor
+  bool cut_off = false;         ///< the registration ran out of time far from its end
   bool possible_motion = true;  ///< a sensor can have moved to the pose
   bool second_sweep = false;    ///< of the map: there is no usual score to judge it by
 };

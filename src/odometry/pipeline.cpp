@@ -183,7 +183,8 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
 Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& registration, SweepResult& result) {
   const MotionVerdict motion = tracker_.weigh(registration.icp.state.T_odom_lidar);
   const Judgement judgement =
-      judge_.judge(prepared, registration, motion, {map_.sweeps(), initial_pose_.expected_score(), tracker_.lost()});
+      judge_.judge(prepared, registration, motion,
+                   {map_.sweeps(), initial_pose_.expected_score(), tracker_.lost(), config_.threshold.floor_m});
   result.stats.map_score = registration.score;
   result.status = judgement.status;
   return judgement;

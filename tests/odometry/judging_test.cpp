@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "odometry/health.hpp"
+#include "odometry/sweep_judge.hpp"
 
 namespace rilo {
 namespace {
@@ -89,6 +90,26 @@ TEST(Judging, ImpossibleMotionAndACoveredSensorAreLost) {
   e.shrunk = true;
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
   EXPECT_FALSE(fits_map(registered(), e, kHealth));
+}
+
+TEST(Judging, ARegistrationCutOffFarFromItsEndIsLost) {
+  PreparedSweep prepared;
+  prepared.source.points.resize(1000, Eigen::Vector3f::UnitX());
+  prepared.median_range_m = 10.0;
+  Registration registration;
+  registration.icp = registered(IcpTermination::kTimeLimit);
+  registration.score = 0.8;
+  const JudgedAgainst before{10, 0.8, false, 0.03};
+  const SweepJudge judge(kHealth);
+  const auto status_after = [&](double turn_rad, double shift_m) {
+    registration.icp.last_update << 0.0, 0.0, turn_rad, shift_m, 0.0, 0.0;
+    return judge.judge(prepared, registration, MotionVerdict::kPossible, before).status;
+  };
+  EXPECT_EQ(status_after(0.001, 0.01), OdometryStatus::kOk);
+  EXPECT_EQ(status_after(0.0, 0.04), OdometryStatus::kLost);
+  EXPECT_EQ(status_after(0.004, 0.0), OdometryStatus::kLost) << "4 cm at the range of the points";
+  registration.icp.termination = IcpTermination::kConverged;
+  EXPECT_EQ(status_after(0.0, 0.04), OdometryStatus::kOk);
 }
 
 TEST(Judging, FewCorrespondencesAndDegeneracyAreSaid) {

@@ -174,6 +174,9 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
   const IcpResult& icp = registration.icp;
   record(icp, result.stats);
   result.stats.coarse_cut = result.stats.coarse_cut || registration.cut;
+  if (in_doubt()) {
+    budget_.learn_doubt(icp.termination == IcpTermination::kTimeLimit);
+  }
   const Eigen::Matrix3d R = icp.state.T_odom_lidar.linear();
   result.translation_evidence = R.transpose() * icp.degeneracy.translation_evidence() * R;
   result.stats.times.registration_ms = clock_.lap_ms();
@@ -183,8 +186,7 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
 Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& registration, SweepResult& result) {
   const MotionVerdict motion = tracker_.weigh(registration.icp.state.T_odom_lidar);
   const Judgement judgement =
-      judge_.judge(prepared, registration, motion,
-                   {map_.sweeps(), initial_pose_.expected_score(), tracker_.lost(), config_.threshold.floor_m});
+      judge_.judge(prepared, registration, motion, {map_.sweeps(), initial_pose_.expected_score(), tracker_.lost()});
   result.stats.map_score = registration.score;
   result.status = judgement.status;
   return judgement;

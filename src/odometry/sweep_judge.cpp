@@ -5,12 +5,13 @@ namespace rilo {
 namespace {
 constexpr std::size_t kYoungSweeps = 5;  // a map of fewer explains less of a sweep than usual
 constexpr int kMostBeginnings = 10;      // a robot may start where the place shows no better second sweep
-constexpr double kShrunk = 1.0 / 3.0;    // of the last median range: doors and passing lorries take less at once
+constexpr double kMostLeftM = 0.1;     // with 0.03 m hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are
+constexpr double kShrunk = 1.0 / 3.0;  // of the last median range: doors and passing lorries take less at once
 
-/// Out of time while the points still moved by more than sigma: each update leaves about as much as it was.
-bool cut_off(const IcpResult& icp, double range_m, double sigma_m) {
+/// Out of time while the points still moved by more than that: each update leaves about as much as it was.
+bool cut_off(const IcpResult& icp, double range_m) {
   return icp.termination == IcpTermination::kTimeLimit &&
-         icp.last_update.tail<3>().norm() + range_m * icp.last_update.head<3>().norm() > sigma_m;
+         icp.last_update.tail<3>().norm() + range_m * icp.last_update.head<3>().norm() > kMostLeftM;
 }
 }  // namespace
 
@@ -24,7 +25,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.usual_score = before.usual_score;
   evidence.was_lost = before.was_lost;
   evidence.shrunk = prepared.median_range_m < kShrunk * median_range_m_;
-  evidence.cut_off = cut_off(registration.icp, prepared.median_range_m, before.least_sigma_th_m);
+  evidence.cut_off = cut_off(registration.icp, prepared.median_range_m);
   evidence.possible_motion = motion != MotionVerdict::kImpossible;
   return {rilo::judge(registration.icp, evidence, config_), motion,
           rilo::fits_map(registration.icp, evidence, config_)};

@@ -12,10 +12,9 @@ namespace rilo {
 
 /// What is known of the sweeps before the one that is judged.
 struct JudgedAgainst {
-  std::size_t map_sweeps = 0;   ///< sweeps in the map
-  double usual_score = 0;       ///< map score of the sweeps before
-  bool was_lost = false;        ///< the sweep before was lost
-  double least_sigma_th_m = 0;  ///< error of a registration where all is well
+  std::size_t map_sweeps = 0;  ///< sweeps in the map
+  double usual_score = 0;      ///< map score of the sweeps before
+  bool was_lost = false;       ///< the sweep before was lost
 };
 
 /// Verdict on one registered sweep.

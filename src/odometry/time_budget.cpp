@@ -8,9 +8,8 @@ namespace rilo {
 namespace {
 constexpr double kTarget = 0.85;        // of the budget
 constexpr double kMostPreparing = 0.3;  // of the target: beyond it, raw points are left out
-constexpr double kDoubtfulWork = 3.0;  // of a sweep in doubt, against a usual one; not cut it has 6 to 10 times as much
-constexpr double kRate = 0.2;          // of learning: about five sweeps
-constexpr double kSlowest = 2.0;       // times the mean; beyond it a time is an accident rather than a trend
+constexpr double kRate = 0.2;           // of learning: about five sweeps
+constexpr double kSlowest = 2.0;        // times the mean; beyond it a time is an accident rather than a trend
 // Before anything is known: a slow machine; ratios as on all machines and drives measured.
 constexpr double kPrepareGuessMs = 1e-4;
 constexpr double kCoarseOverPrepare = 2e5;
@@ -40,9 +39,14 @@ PointShares TimeBudget::affordable(std::size_t raw_points, bool first, bool in_d
   const double prepare_ms = passes * ms(Work::kPrepare, static_cast<double>(raw_points));
   const double most_ms = kMostPreparing * target_ms();
   shares.raw = prepare_ms > most_ms ? std::max(kLeastShare, most_ms / prepare_ms) : 1.0;
-  const double rest_ms = ms(Work::kRest) * (in_doubt ? kDoubtfulWork : 1.0);
+  const double rest_ms = ms(Work::kRest) * (in_doubt ? doubtful_work_ : 1.0);
   shares.source = std::clamp((target_ms() - shares.raw * prepare_ms) / rest_ms, kLeastShare, 1.0);
   return shares;
+}
+
+void TimeBudget::learn_doubt(bool out_of_time) {
+  doubtful_work_ = out_of_time ? std::min(2.0 * doubtful_work_, kDoubtfulWork / kLeastShare)
+                               : std::max(0.5 * doubtful_work_, kDoubtfulWork);
 }
 
 double TimeBudget::share_in_time(double work_ms, double left_ms) const {

@@ -64,17 +64,25 @@ class TimeBudget {
   /// Learns from finished work.
   void learn(Work work, double units, double took_ms);
 
-  void reset() { times_ = {}; }
+  /// Whether the registration of a sweep in doubt ran out of time: the next one gets fewer points, so that all of the
+  /// search fits.
+  void learn_doubt(bool out_of_time);
+
+  void reset() { *this = TimeBudget(config_, static_cast<int>(source_points_)); }
 
   static constexpr double kLeastShare = 0.1;   ///< with fewer points a sweep is not registered reliably
   static constexpr double kFirstPasses = 4.0;  ///< the first sweep is prepared as often until its scale is found
 
  private:
+  /// Least work of a sweep in doubt, in usual ones; not cut it has 6 to 10 times as much.
+  static constexpr double kDoubtfulWork = 3.0;
+
   double guess(Work work) const;
 
   TimeBudgetConfig config_;
   double source_points_;
   std::array<UsualTime, kWorkCount> times_;  // per unit
+  double doubtful_work_ = kDoubtfulWork;
 };
 
 }  // namespace rilo

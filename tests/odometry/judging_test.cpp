@@ -99,17 +99,17 @@ TEST(Judging, ARegistrationCutOffFarFromItsEndIsLost) {
   Registration registration;
   registration.icp = registered(IcpTermination::kTimeLimit);
   registration.score = 0.8;
-  const JudgedAgainst before{10, 0.8, false, 0.03};
+  const JudgedAgainst before{10, 0.8, false};
   const SweepJudge judge(kHealth);
   const auto status_after = [&](double turn_rad, double shift_m) {
     registration.icp.last_update << 0.0, 0.0, turn_rad, shift_m, 0.0, 0.0;
     return judge.judge(prepared, registration, MotionVerdict::kPossible, before).status;
   };
-  EXPECT_EQ(status_after(0.001, 0.01), OdometryStatus::kOk);
-  EXPECT_EQ(status_after(0.0, 0.04), OdometryStatus::kLost);
-  EXPECT_EQ(status_after(0.004, 0.0), OdometryStatus::kLost) << "4 cm at the range of the points";
+  EXPECT_EQ(status_after(0.005, 0.03), OdometryStatus::kOk);
+  EXPECT_EQ(status_after(0.0, 0.11), OdometryStatus::kLost);
+  EXPECT_EQ(status_after(0.011, 0.0), OdometryStatus::kLost) << "11 cm at the range of the points";
   registration.icp.termination = IcpTermination::kConverged;
-  EXPECT_EQ(status_after(0.0, 0.04), OdometryStatus::kOk);
+  EXPECT_EQ(status_after(0.0, 0.11), OdometryStatus::kOk);
 }
 
 TEST(Judging, FewCorrespondencesAndDegeneracyAreSaid) {

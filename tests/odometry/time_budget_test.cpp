@@ -47,6 +47,18 @@ TimeBudget experienced(double budget_ms, double prepare_ms, double rest_ms) {
   return budget;
 }
 
+TEST(TimeBudget, ASearchThatRanOutOfTimeGetsFewerPointsNextTime) {
+  TimeBudget budget = experienced(20.0, 5.0, 20.0);
+  const auto share = [&] { return budget.affordable(kRawPoints, false, true).source; };
+  const double first = share();
+  budget.learn_doubt(true);
+  EXPECT_NEAR(share(), 0.5 * first, 1e-9);
+  for (int i = 0; i < 10; ++i) budget.learn_doubt(true);
+  EXPECT_EQ(share(), TimeBudget::kLeastShare);
+  for (int i = 0; i < 10; ++i) budget.learn_doubt(false);
+  EXPECT_EQ(share(), first);
+}
+
 TEST(TimeBudget, SourcePointsAreCutToFit) {
   EXPECT_FALSE(experienced(50.0, 5.0, 20.0).affordable(kRawPoints, false, false).cut());
   const TimeBudget budget = experienced(20.0, 5.0, 20.0);

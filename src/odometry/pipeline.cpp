@@ -17,7 +17,6 @@ constexpr std::size_t kEstablishedSweeps = 3;  // the prediction needs two motio
 constexpr std::size_t kUnevenStride = 4;       // every fourth point shows the motion within a sweep
 constexpr double kCoarseShare = 0.5;           // of the time left; the rest is for what follows the coarse stage
 constexpr double kLeastCoarse = 0.3;           // of its points; with fewer it finds nothing
-constexpr double kLateWork = 2.0;              // a registration that was cut would have taken longer
 
 std::size_t workers(const OdometryConfig& config) {
   const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
@@ -120,11 +119,6 @@ MotionState Pipeline::predict(const PreparedSweep& prepared) {
   return predicted;
 }
 
-/// When work has to end that leaves so much time for what follows.
-Deadline Pipeline::deadline(double reserve_ms) const {
-  return budget_.limited() ? clock_.deadline(budget_.target_ms() - reserve_ms) : Deadline();
-}
-
 InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const MotionState& predicted,
                                           SweepResult& result) {
   const std::function<Vector6d(const SE3&)> twist_at = [&](const SE3& T) { return tracker_.implied_twist(T); };
@@ -144,16 +138,6 @@ InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const M
     thin(prepared, budget_.share_in_time(rest_ms, budget_.target_ms() - clock_.total_ms()), result.stats);
   }
   return init;
-}
-
-/// Leaves so many of the points of the present sweep.
-void Pipeline::thin(const PreparedSweep& prepared, double share, SweepStats& stats) {
-  if (share < 1.0) {
-    preprocessor_.thin(share);
-    stats.points_source = prepared.source.size();
-    stats.points_map = prepared.map_cloud.size();
-    stats.points_cut = true;
-  }
 }
 
 Registration Pipeline::register_finely(const PreparedSweep& prepared, const MotionState& predicted,
@@ -230,27 +214,7 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
                 clock_.total_ms() - times.preprocess_ms - times.initial_pose_ms - times.registration_ms);
   insert(prepared.map_cloud, result,
          [&](const TimedCloud& cloud) { map_.insert(cloud, tracker_.state(), calibration_.pose_by_elevation()); });
-  if (established() && result.status != OdometryStatus::kRecovered && registration.starts == 1) {
-    const double coarse_ms = result.stats.coarse_ran ? times.initial_pose_ms : 0.0;
-    const double took_ms = clock_.total_ms() - times.preprocess_ms - coarse_ms;
-    const bool late = icp.termination == IcpTermination::kTimeLimit;
-    budget_.learn(Work::kRest, shares_.source, (late ? kLateWork : 1.0) * took_ms);
-  }
-}
-
-/// Puts a sweep into the map, or as many of its points as there is time for.
-void Pipeline::insert(const TimedCloud& cloud, SweepResult& result,
-                      const std::function<void(const TimedCloud&)>& into_map) {
-  const double begin_ms = clock_.total_ms();
-  const auto points = static_cast<double>(cloud.size());
-  const double share = budget_.share_in_time(budget_.ms(Work::kInsert, points), config_.budget.sweep_ms - begin_ms);
-  if (share < 1.0) {
-    result.stats.points_cut = true;
-    into_map(thinned(cloud, share));
-  } else {
-    into_map(cloud);
-  }
-  budget_.learn(Work::kInsert, share * points, clock_.total_ms() - begin_ms);
+  learn_rest(registration, result);
 }
 
 void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,

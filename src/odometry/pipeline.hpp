@@ -52,6 +52,7 @@ class Pipeline {
             SweepResult& result);
   void begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result);
   void thin(const PreparedSweep& prepared, double share, SweepStats& stats);
+  void learn_rest(const Registration& registration, const SweepResult& result);
   void insert(const TimedCloud& cloud, SweepResult& result, const std::function<void(const TimedCloud&)>& into_map);
   void finish(SweepResult& result);
 

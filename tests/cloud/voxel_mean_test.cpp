@@ -80,16 +80,18 @@ TEST(VoxelMean, EqualsSumsInDoublePrecisionOverManyCallsOnOneTable) {
       in.points.emplace_back(coordinate(rng), coordinate(rng), coordinate(rng));
     }
     std::map<std::uint64_t, std::pair<Eigen::Vector3d, int>> expected;
+    std::vector<std::uint64_t> order;
     for (const Eigen::Vector3f& p : in.points) {
       auto& cell = expected.try_emplace(voxel_key(voxel_of(p, 0.25)), Eigen::Vector3d::Zero(), 0).first->second;
       cell.first += p.cast<double>();
-      ++cell.second;
+      if (++cell.second == 1) order.push_back(voxel_key(voxel_of(p, 0.25)));
     }
     TimedCloud out;
     mean.average(in, 4.0, out);
     ASSERT_EQ(out.size(), expected.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const auto& [sum, points] = expected.at(voxel_key(voxel_of(out.points[i], 0.25)));
+      ASSERT_EQ(voxel_key(voxel_of(out.points[i], 0.25)), order[i]) << "not as first met";
+      const auto& [sum, points] = expected.at(order[i]);
       EXPECT_LT((out.points[i].cast<double>() - sum / points).norm(), 1e-5);
       EXPECT_EQ(out.counts[i], static_cast<float>(points));
     }

@@ -24,6 +24,9 @@ class ElevationRotation {
   explicit ElevationRotation(double angle_rad)
       : cosine_(static_cast<float>(std::cos(angle_rad))), sine_(static_cast<float>(std::sin(angle_rad))) {}
 
+  float cosine() const { return cosine_; }
+  float sine() const { return sine_; }
+
   Eigen::Vector3f operator()(const Eigen::Vector3f& p) const { return cosine_ * p + sine_ * elevation_jacobian(p); }
 
  private:

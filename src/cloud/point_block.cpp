@@ -82,9 +82,9 @@ RILO_WIDE void turn_beams(PointBlock& p, const Lanes<float>& elevation_rad, cons
   }
 }
 
-RILO_WIDE void rotate_elevation(PointBlock& p, double angle_rad) {
-  const auto cosine = static_cast<float>(std::cos(angle_rad));
-  const auto sine = static_cast<float>(std::sin(angle_rad));
+RILO_WIDE void rotate_elevation(PointBlock& p, const ElevationRotation& rotation) {
+  const float cosine = rotation.cosine();
+  const float sine = rotation.sine();
   for (std::size_t i = 0; i < kSize; ++i) {
     const float x = p.x[i];
     const float y = p.y[i];

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "cloud/elevation.hpp"
+
 namespace rilo {
 
 /// Points that are worked on together. Functions on a block work on all kSize places; those beyond the points hold
@@ -72,8 +74,8 @@ void find_quadrants(const PointBlock& p, const Eigen::Vector2f& seam, float dire
 void turn_beams(PointBlock& p, const PointBlock::Lanes<float>& elevation_rad,
                 const PointBlock::Lanes<float>& azimuth_rad);
 
-/// Rotates the points as ElevationRotation does.
-void rotate_elevation(PointBlock& p, double angle_rad);
+/// `rotation` of each point.
+void rotate_elevation(PointBlock& p, const ElevationRotation& rotation);
 
 /// voxel_key(voxel_of(p, inverse_size)) of each point.
 void find_voxel_keys(const PointBlock& p, double inverse_size, PointBlock::Lanes<std::uint64_t>& keys);

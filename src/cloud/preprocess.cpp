@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cloud/elevation.hpp"
 #include "cloud/fixed_chunks.hpp"
 #include "cloud/point_block.hpp"
 
@@ -165,6 +166,7 @@ void Preprocessor::crop(const SweepView& sweep) {
   const bool intense = intensities_kept_ && sweep.intensities.size() == sweep.points.size();
   cropped_.intensities.resize(intense ? kept : 0);
   const bool rotated = elevation_offset_rad_ != 0.0;
+  const ElevationRotation rotation(elevation_offset_rad_);
   for_fixed_chunks(sweep.points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
     PointBlock p;
     alignas(64) PointBlock::Lanes<float> elevation{};
@@ -173,7 +175,7 @@ void Preprocessor::crop(const SweepView& sweep) {
     std::size_t n = 0;
     const auto write = [&] {
       if (rotated) {
-        rotate_elevation(p, elevation_offset_rad_);
+        rotate_elevation(p, rotation);
       }
       if (beams_tracked_) {
         turn_beams(p, elevation, azimuth);

@@ -105,7 +105,7 @@ TEST(PointBlock, AnglesOfBeams) {
 TEST(PointBlock, RotationInElevation) {
   const std::vector<Eigen::Vector3f> p = points();
   PointBlock block = block_of(p);
-  rotate_elevation(block, 0.02);
+  rotate_elevation(block, ElevationRotation(0.02));
   std::vector<Eigen::Vector3f> rotated(kSize);
   block.store(rotated.data(), kSize);
   for (std::size_t i = 0; i < kSize; ++i) {

@@ -38,9 +38,10 @@ void LocalMap::clear() {
   double most = config_.max_points;
   for (int level = 0; level < config_.levels; ++level, voxel *= 2.0, most *= kMorePointsPerLevel) {
     const auto max_points = static_cast<std::int32_t>(std::min(most, 1e9));
+    const bool keep_scatter = config_.scatter_voxel_m > 0.0 && voxel >= config_.scatter_voxel_m;
     grids_.emplace_back(voxel,
                         PlaneCriteria{config_.min_points, max_points, config_.max_planarity, config_.min_extent * voxel,
-                                      config_.range_noise_m, config_.angle_noise_rad});
+                                      config_.range_noise_m, config_.angle_noise_rad, keep_scatter});
   }
 }
 
@@ -112,6 +113,7 @@ void LocalMap::locate(std::span<const Eigen::Vector3d> points, Wanted wanted, st
   std::array<VoxelIndex, kBatch> behind{};
   std::array<std::size_t, kBatch> open{};  // points without a plane so far
   std::array<std::size_t, kBatch> near{};  // those of them that lie near a face
+  const bool scatter = wanted == Wanted::kPlanesAndScatter;
   std::size_t left = points.size();
   for (std::size_t i = 0; i < left; ++i) {
     open[i] = i;
@@ -121,8 +123,6 @@ void LocalMap::locate(std::span<const Eigen::Vector3d> points, Wanted wanted, st
   }
   for (; level < grids_.size() && left > 0; ++level) {
     const PlaneGrid& grid = grids_[level];
-    const bool scatter = wanted == Wanted::kPlanesAndScatter && config_.scatter_voxel_m > 0.0 &&
-                         grid.voxel_m() >= config_.scatter_voxel_m;
     const std::size_t looked_up = std::exchange(left, 0);
     std::size_t beside = 0;
     for (std::size_t k = 0; k < looked_up; ++k) {

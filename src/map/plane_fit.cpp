@@ -76,32 +76,48 @@ void PlaneGrid::fit(std::uint32_t id) {
   const Eigen::Matrix<double, 6, 1> s = voxel.squares.cast<double>() / n;
   C << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
   C -= mean * mean.transpose();
-  const double range_m = voxel.ray_sum.cast<double>().norm() / n;
+  const Kind kind = keep_surface(id, C, voxel.ray_sum.cast<double>() / n);
+  planes_[id].mean = mean.cast<float>();
+  voxel.fit = kind == Kind::kPlane ? Fit::kPlane : Fit::kNoPlane;
+  Slot& slot = slots_[slot_of(voxel.key)];
+  slot.kind = kind;
+  slot.full = slot.full && kind == Kind::kPlane;
+}
+
+PlaneGrid::Kind PlaneGrid::keep_surface(std::uint32_t id, const Eigen::Matrix3d& C, const Eigen::Vector3d& mean_ray) {
+  const double range_m = mean_ray.norm();
   SymmetricEigen3 surface;
   double lambda = 1.0;
   if (range_m > 0.0) {
-    const Eigen::Vector3d ray = voxel.ray_sum.cast<double>() / (n * range_m);
+    const Eigen::Vector3d ray = mean_ray / range_m;
+    const bool noisy = criteria_.angle_noise_rad > 0.0;
+    if (noisy) {
+      lambda = direction_reliability(C, ray, criteria_.angle_noise_rad * range_m);
+      if (lambda < kLeastReliability) {
+        return Kind::kNone;
+      }
+    }
     const Eigen::Vector3d regression = regression_normal(C, ray);
     surface = symmetric_eigen(without_range_noise(C, ray, regression, criteria_.range_noise_m));
-    if (criteria_.angle_noise_rad > 0.0) {
-      lambda = direction_reliability(C, ray, criteria_.angle_noise_rad * range_m) *
-               normal_reliability(surface.vectors.col(0), regression, ray);
+    if (noisy) {
+      lambda *= normal_reliability(surface.vectors.col(0), regression, ray);
     }
   } else {
     surface = symmetric_eigen(C);
   }
+  if (lambda < kLeastReliability) {
+    return Kind::kNone;
+  }
   const double smallest = std::max(surface.values[0], 0.0);
   const double middle = surface.values[1];
-  const bool reliable = lambda >= kLeastReliability;
-  const bool planar = reliable && middle > criteria_.min_extent_m * criteria_.min_extent_m &&
-                      smallest < criteria_.max_planarity * middle;
-  voxel.fit = planar ? Fit::kPlane : Fit::kNoPlane;
-  planes_[id].mean = mean.cast<float>();
+  const bool planar =
+      middle > criteria_.min_extent_m * criteria_.min_extent_m && smallest < criteria_.max_planarity * middle;
+  if (!planar && !criteria_.keep_scatter) {
+    return Kind::kNone;
+  }
   planes_[id].weight = static_cast<float>(lambda * lambda);
   keep_extents(id, C, planar ? surface : symmetric_eigen(C));
-  Slot& slot = slots_[slot_of(voxel.key)];
-  slot.kind = planar ? Kind::kPlane : (reliable ? Kind::kScatter : Kind::kNone);
-  slot.full = slot.full && planar;
+  return planar ? Kind::kPlane : Kind::kScatter;
 }
 
 void PlaneGrid::keep_extents(std::uint32_t id, const Eigen::Matrix3d& covariance, const SymmetricEigen3& eigen) {

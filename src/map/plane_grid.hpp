@@ -20,6 +20,7 @@ struct PlaneCriteria {
   double min_extent_m = 0.05;
   double range_noise_m = 0.0;    ///< standard deviation of a point along its ray
   double angle_noise_rad = 0.0;  ///< standard deviation of its direction
+  bool keep_scatter = true;      ///< points that are no plane count as a Gaussian
 };
 
 /// A point that goes into the map.
@@ -195,6 +196,8 @@ class PlaneGrid {
   void erase(std::uint32_t voxel);
   void grow();
   void fit(std::uint32_t id);
+  /// Keeps what the points with the covariance `C` (m²) and the mean ray from the sensor (m) are.
+  Kind keep_surface(std::uint32_t id, const Eigen::Matrix3d& C, const Eigen::Vector3d& mean_ray);
   void keep_extents(std::uint32_t id, const Eigen::Matrix3d& covariance, const SymmetricEigen3& eigen);
 
   double voxel_m_;

@@ -2,15 +2,11 @@
 
 namespace rilo {
 
-namespace {
-constexpr std::size_t kElevationStride = 4;  // a quarter of the points show the same offset at a quarter of the cost
-}  // namespace
-
 void SensorCalibration::learn(const PreparedSweep& prepared, const IcpResult& icp, double sigma_th_m,
                               const AdaptiveIcpConfig& config, bool sound, LocalMap& map) {
   if (elevation_config_.enabled) {
     const ElevationInformation sweep =
-        elevation_information(prepared.source, map, icp, sigma_th_m, config, pose_by_elevation_, kElevationStride);
+        elevation_information(prepared.source, map, icp, sigma_th_m, config, pose_by_elevation_, kSampleStride);
     pose_by_elevation_ = sweep.pose;
     if (sound) {
       elevation_.add(sweep);

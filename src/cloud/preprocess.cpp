@@ -12,7 +12,6 @@ namespace rilo {
 
 namespace {
 
-constexpr int kFirstRounds = 3;            // to find the voxel of the first sweep
 constexpr std::size_t kBeamSample = 4000;  // points: enough for 128 beams at little cost
 constexpr std::size_t kPhaseStep = 7;      // prime: the samples of successive sweeps differ
 constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz
@@ -29,7 +28,7 @@ const PreparedSweep& Preprocessor::prepare(const SweepView& sweep) {
     // The first sweep finds the scale of the place; a few rounds are enough because the count goes with about the
     // square.
     source_voxel_m_ = config_.max_voxel_m;
-    for (int round = 0; round < kFirstRounds; ++round) {
+    for (int pass = 1; pass < kFirstPasses; ++pass) {
       downsample(source_voxel_m_);
       adapt_voxel();
     }

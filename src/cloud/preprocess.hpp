@@ -30,6 +30,8 @@ struct PreparedSweep {
 /// Range crop, NaN removal, time normalisation and downsampling. Keeps its buffers from sweep to sweep.
 class Preprocessor {
  public:
+  static constexpr int kFirstPasses = 4;  ///< the first sweep is downsampled as often until its scale is found
+
   explicit Preprocessor(const PreprocessConfig& config)
       : config_(config), source_points_(static_cast<double>(config.source_points)) {}
 

@@ -12,8 +12,6 @@ namespace rilo {
 
 namespace {
 constexpr std::uint64_t kSecondHalf = 1ULL << 63U;  // a bit that voxel_key leaves free
-constexpr std::size_t kFirstMeanSlots = 1U << 12U;  // grows by itself; a power of two
-constexpr std::size_t kAhead = 16;                  // the table's memory is prefetched this many points ahead
 
 /// Sign of y of a voxel, a bit of its key.
 std::uint64_t side_of(std::uint64_t key) { return key >> 41U & 1U; }
@@ -39,7 +37,7 @@ void VoxelMean::find_keys(const TimedCloud& in, double voxel_m) {
 void VoxelMean::Side::start() {
   means_.clear();
   if (slots_.empty() || ++generation_ == 0) {  // after 2^32 calls the old marks would come back to life
-    slots_.assign(std::max(kFirstMeanSlots, slots_.size()), Slot{});
+    slots_.assign(std::max(kFirstVoxelSlots, slots_.size()), Slot{});
     generation_ = 1;
   }
 }
@@ -116,8 +114,8 @@ void VoxelMean::Side::add_up(const TimedCloud& in, const std::vector<std::uint64
         mean.intensity_sum += count_of(k) * in.intensities[k];
       }
     }
-    const std::size_t ahead = std::min(i + kAhead, size);
-    for (std::size_t k = begin + kAhead; k < ahead; ++k) {
+    const std::size_t ahead = std::min(i + kLookUpsInFlight, size);
+    for (std::size_t k = begin + kLookUpsInFlight; k < ahead; ++k) {
       if (keys[k] != keys[k - 1]) {
         __builtin_prefetch(&slots_[mix_key(keys[k]) & (slots_.size() - 1)]);
       }

@@ -1,6 +1,7 @@
 // Integer lattice of voxels and its hash key.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -51,6 +52,9 @@ inline VoxelIndex voxel_of_key(std::uint64_t key, const VoxelIndex& place) {
   };
   return {unpack(0U, place.x), unpack(21U, place.y), unpack(42U, place.z)};
 }
+
+inline constexpr std::size_t kFirstVoxelSlots = 1U << 12U;  // of a hash table; grows by itself, a power of two
+inline constexpr std::size_t kLookUpsInFlight = 16;  // as many as hide the latency of memory (docs/benchmarks.md)
 
 /// Mixes a key so that neighbouring voxels spread over the table (multiplicative hashing, upper bits are the good
 /// ones).

@@ -109,10 +109,10 @@ bool LocalMap::find(const Eigen::Vector3d& p, MapPlane& plane) const {
 // Level by level for all points, so that the memory for the next look-up of each is prefetched during the others.
 void LocalMap::locate(std::span<const Eigen::Vector3d> points, Wanted wanted, std::size_t level,
                       PlaneSpot* spots) const {
-  std::array<VoxelIndex, kBatch> index{};
-  std::array<VoxelIndex, kBatch> behind{};
-  std::array<std::size_t, kBatch> open{};  // points without a plane so far
-  std::array<std::size_t, kBatch> near{};  // those of them that lie near a face
+  std::array<VoxelIndex, kLookUpsInFlight> index{};
+  std::array<VoxelIndex, kLookUpsInFlight> behind{};
+  std::array<std::size_t, kLookUpsInFlight> open{};  // points without a plane so far
+  std::array<std::size_t, kLookUpsInFlight> near{};  // those of them that lie near a face
   const bool scatter = wanted == Wanted::kPlanesAndScatter;
   std::size_t left = points.size();
   for (std::size_t i = 0; i < left; ++i) {

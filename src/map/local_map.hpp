@@ -50,10 +50,10 @@ class LocalMap {
   template <Wanted What = Wanted::kPlanes, typename PointAt, typename Use>
   void visit(std::size_t first, std::size_t last, const PointAt& point_at, const Use& use,
              std::size_t level = 0) const {
-    std::array<Eigen::Vector3d, kBatch> points;
-    std::array<PlaneSpot, kBatch> spots;
-    for (std::size_t begin = first; begin < last; begin += kBatch) {
-      const std::size_t n = std::min(kBatch, last - begin);
+    std::array<Eigen::Vector3d, kLookUpsInFlight> points;
+    std::array<PlaneSpot, kLookUpsInFlight> spots;
+    for (std::size_t begin = first; begin < last; begin += kLookUpsInFlight) {
+      const std::size_t n = std::min(kLookUpsInFlight, last - begin);
       for (std::size_t i = 0; i < n; ++i) {
         points[i] = point_at(begin + i);
       }
@@ -79,10 +79,8 @@ class LocalMap {
   void clear();
 
  private:
-  static constexpr std::size_t kBatch = 16;  // look-ups in flight together: as many as hide the latency of memory
-
-  /// The finest plane from `level` on at each of at most kBatch points, or, where there is none and it is wanted, the
-  /// finest points that are not a plane; an empty spot where there is neither.
+  /// The finest plane from `level` on at each of at most kLookUpsInFlight points, or, where there is none and it is
+  /// wanted, the finest points that are not a plane; an empty spot where there is neither.
   void locate(std::span<const Eigen::Vector3d> points, Wanted wanted, std::size_t level, PlaneSpot* spots) const;
 
   LocalMapConfig config_;

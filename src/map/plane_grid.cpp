@@ -8,13 +8,11 @@
 namespace rilo {
 
 namespace {
-constexpr std::size_t kFirstPlaneSlots = 1U << 12U;  // grows by itself; a power of two
 constexpr double kFaceShare = 0.2;  // of the voxel: a point this near to a face may belong to the surface behind it
-constexpr std::size_t kBatch = 16;  // memory accesses in flight together: as many as hide their latency
 }  // namespace
 
 PlaneGrid::PlaneGrid(double voxel_m, const PlaneCriteria& criteria)
-    : voxel_m_(voxel_m), inverse_(1.0 / voxel_m), criteria_(criteria), slots_(kFirstPlaneSlots) {}
+    : voxel_m_(voxel_m), inverse_(1.0 / voxel_m), criteria_(criteria), slots_(kFirstVoxelSlots) {}
 
 Eigen::Vector3d PlaneGrid::centre_of(const Voxel& voxel) const { return centre_of(voxel_of_key(voxel.key, place_)); }
 
@@ -33,10 +31,10 @@ void PlaneGrid::insert(const std::vector<InsertedPoint>& points) {
 }
 
 void PlaneGrid::insert(const std::vector<InsertedPoint>& points, const std::vector<VoxelIndex>& voxels, int doublings) {
-  std::array<VoxelIndex, kBatch> indices{};
-  std::array<std::uint32_t, kBatch> ids{};
-  for (std::size_t first = 0; first < points.size(); first += kBatch) {
-    const std::size_t n = std::min(kBatch, points.size() - first);
+  std::array<VoxelIndex, kLookUpsInFlight> indices{};
+  std::array<std::uint32_t, kLookUpsInFlight> ids{};
+  for (std::size_t first = 0; first < points.size(); first += kLookUpsInFlight) {
+    const std::size_t n = std::min(kLookUpsInFlight, points.size() - first);
     for (std::size_t i = 0; i < n; ++i) {
       const VoxelIndex& fine = voxels[first + i];
       indices[i] = {fine.x >> doublings, fine.y >> doublings, fine.z >> doublings};

@@ -5,12 +5,7 @@
 namespace rilo {
 
 namespace {
-// Where a sweep belongs it converges, in 16 iterations at most on 95 % of the sweeps of each drive without faults. With
-// fewer allowed, convergence is not required.
-constexpr int kEnoughIterations = 20;
 constexpr double kYoungShare = 0.5;  // of the usual score, that a map of a few sweeps reaches
-// In a place that shows less and less, the first sweep that is lost would lose all that follow.
-constexpr double kRecoveryShare = 0.94;
 
 bool is_degenerate(const IcpResult& icp, const HealthConfig& config) {
   return icp.degeneracy.relative_eigenvalues[0] < config.degenerate_ratio;
@@ -21,15 +16,14 @@ bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig
   if (icp.termination == IcpTermination::kSingular || evidence.shrunk || evidence.cut_off) {
     return false;
   }
-  if (!icp.converged() && icp.iterations >= kEnoughIterations) {
-    return false;
+  if (!icp.converged() && icp.frozen) {
+    return false;  // where a sweep belongs it comes to rest before its matches have to be held, or with them
   }
   if (evidence.second_sweep && (icp.frozen || is_degenerate(icp, config))) {
     return false;  // along a road with little to hold on to it fits metres off, too
   }
-  const double share = (evidence.was_lost ? kRecoveryShare : 1.0) * config.lost_share;
   const double expected = (evidence.young_map ? kYoungShare : 1.0) * evidence.usual_score;
-  return evidence.score >= std::max(config.least_score, share * expected);
+  return evidence.score >= std::max(config.least_score, config.lost_share * expected);
 }
 
 OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {

@@ -5,36 +5,28 @@
 #include <utility>
 
 #include "cloud/deskew.hpp"
+#include "odometry/pose_noise.hpp"
+#include "odometry/running_mean.hpp"
 #include "registration/map_score.hpp"
 
 namespace rilo {
 
 namespace {
-constexpr double kLearningRate = 0.2;           // of the usual score: about five sweeps
-constexpr double kDoubtfulLearningRate = 0.02;  // of a score below the alarm
+constexpr double kDoubtfulShare = 0.02;  // of a score below the alarm in the usual one
 // The search looks at fewer points and more tolerantly than the score: it only has to find the basin of convergence.
-constexpr std::size_t kSearchPoints = 300;
 constexpr std::size_t kSinglePoints = 5000;  // for candidates that differ by few of them
 constexpr double kSearchSigmaM = 0.3;
-constexpr double kSearchShiftStepM = 0.5;  // within the reach of the coarse stage
-constexpr double kSearchYawStepRad = 0.1;
-constexpr double kSearchShare = 0.6;      // of the time left; the coarse stage from what was found needs the rest
-constexpr std::size_t kSearchStarts = 4;  // the cost of each is one coarse registration
+constexpr double kSearchStepM = 0.5;  // within the reach of the coarse stage
+constexpr double kSearchStepRad = 0.1;
+constexpr std::size_t kSearchStarts = 4;  // the cost of each is one registration
 // A cloud compensated for a slightly wrong velocity is as good a target: at either end of a sweep of 0.1 s its points
 // are off by less than the least noise of the coarse stage.
 constexpr double kHalfSweepS = 0.05;
 // A sweep whose score over its residuals is below this share of the usual ratio may have been taken at another time
-// than its stamp: this many periods earlier or later, searched in steps of at most these.
+// than its stamp: this many periods earlier or later.
 constexpr double kSuspicious = 0.8;
-constexpr double kPeriodsEarlier = 8.0;
-constexpr double kPeriodsLater = 12.0;
-constexpr double kPathStepM = 0.3;
-constexpr double kPathStepRad = 0.05;
+constexpr double kPeriods = 8.0;
 constexpr double kMostPathSteps = 100.0;
-constexpr std::size_t kPathPlaces = 3;  // the cost of each is one fine registration
-// Velocities that differ by less over half a sweep are the same for the coarse stage.
-constexpr double kSameTurnRad = 0.005;
-constexpr double kSameShiftM = 0.05;
 }  // namespace
 
 InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse,
@@ -157,15 +149,13 @@ std::vector<SE3> InitialPoseStage::places_on_path(const TimedCloud& source, cons
                                                   const LocalMap& map) {
   const Vector6d period = dt_s * predicted.twist;
   const double steps_a_period =
-      std::ceil(std::max(period.tail<3>().norm() / kPathStepM, period.head<3>().norm() / kPathStepRad));
-  const auto steps =
-      static_cast<std::size_t>(std::min(steps_a_period * (kPeriodsEarlier + kPeriodsLater), kMostPathSteps));
-  const double step = steps > 0 ? (kPeriodsEarlier + kPeriodsLater) / static_cast<double>(steps) : 0.0;
+      std::ceil(std::max(period.tail<3>().norm() / kSearchStepM, period.head<3>().norm() / kSearchStepRad));
+  const double steps = std::clamp(2.0 * kPeriods * steps_a_period, 1.0, kMostPathSteps);
   deskew(source, predicted.twist, compensated_);
-  const auto points = evenly_picked(compensated_, kSearchPoints);
+  const auto points = evenly_picked(compensated_, static_cast<std::size_t>(config_.score_points));
   std::vector<ScoredPose> path;
-  for (std::size_t k = 0; k <= steps; ++k) {
-    const SE3 T = predicted.T_odom_lidar * se3_exp((static_cast<double>(k) * step - kPeriodsEarlier) * period);
+  for (std::size_t k = 0; static_cast<double>(k) <= steps; ++k) {
+    const SE3 T = predicted.T_odom_lidar * se3_exp((2.0 * static_cast<double>(k) / steps - 1.0) * kPeriods * period);
     path.push_back({T, map_score(points, map, T, kSearchSigmaM)});
   }
   std::vector<ScoredPose> maxima;
@@ -179,14 +169,14 @@ std::vector<SE3> InitialPoseStage::places_on_path(const TimedCloud& source, cons
   std::stable_sort(maxima.begin(), maxima.end(),
                    [](const ScoredPose& a, const ScoredPose& b) { return a.score > b.score; });
   std::vector<SE3> places;
-  for (std::size_t i = 0; i < std::min(maxima.size(), kPathPlaces); ++i) {
+  for (std::size_t i = 0; i < std::min(maxima.size(), kSearchStarts); ++i) {
     places.push_back(maxima[i].T_odom_lidar);
   }
   return places;
 }
 
 std::vector<SE3> InitialPoseStage::restarts(const SE3& centre, const LocalMap& map, const Deadline& deadline) const {
-  const PoseGrid grid{config_.search_shift_m, kSearchShiftStepM, config_.search_yaw_rad, kSearchYawStepRad};
+  const PoseGrid grid{config_.search_shift_m, kSearchStepM, config_.search_yaw_rad, kSearchStepRad};
   return search_poses(compensated_, map, centre, grid, kSearchSigmaM, kSearchStarts, deadline);
 }
 
@@ -197,9 +187,9 @@ double InitialPoseStage::score(const TimedCloud& source, const MotionState& stat
 }
 
 void InitialPoseStage::learn(double score, std::optional<double> residual_rms_m) {
-  const double rate = is_consistent(score) ? kLearningRate : kDoubtfulLearningRate;
-  const auto follow = [rate](double& usual, double value) {
-    usual = usual > 0.0 ? usual + rate * (value - usual) : value;
+  const double share = is_consistent(score) ? kRunningShare : kDoubtfulShare;
+  const auto follow = [share](double& usual, double value) {
+    usual = usual > 0.0 ? usual + share * (value - usual) : value;
   };
   follow(usual_score_, score);
   if (residual_rms_m) {
@@ -211,7 +201,7 @@ void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twi
   restarts_due_ = false;
   target_.reset();
   const Vector6d moved = kHalfSweepS * (twist - moving_twist_);
-  if (moving_ && moved.head<3>().norm() < kSameTurnRad && moved.tail<3>().norm() < kSameShiftM) {
+  if (moving_ && moved.head<3>().norm() < kPoseNoiseRad && moved.tail<3>().norm() < kPoseNoiseM) {
     target_ = std::move(moving_);
   } else {
     deskew(source, twist, target_points_);

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "odometry/pose_noise.hpp"
+
 namespace rilo {
 
 namespace {
-// Noise of good poses, and of the motions between them.
-constexpr double kPoseNoiseM = 0.1;
-constexpr double kPoseNoiseRad = 0.035;
 // Stamps of arrival jitter. Up to this ratio of two steps' times the motion per sweep may be the steadier one.
 constexpr double kMostJitter = 3.0;
 

@@ -8,15 +8,13 @@
 #include "cloud/thinning.hpp"
 #include "odometry/motion_prior.hpp"
 #include "odometry/sweep_record.hpp"
+#include "registration/plane_residuals.hpp"
 #include "registration/uneven_motion.hpp"
 
 namespace rilo {
 
 namespace {
-constexpr std::size_t kEstablishedSweeps = 3;  // the prediction needs two motions
-constexpr std::size_t kUnevenStride = 4;       // every fourth point shows the motion within a sweep
-constexpr double kCoarseShare = 0.5;           // of the time left; the rest is for what follows the coarse stage
-constexpr double kLeastCoarse = 0.3;           // of its points; with fewer it finds nothing
+constexpr double kLeastCoarse = 0.3;  // of its points; with fewer it finds nothing
 
 std::size_t workers(const OdometryConfig& config) {
   const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
@@ -99,7 +97,7 @@ const PreparedSweep& Pipeline::prepare(const SweepView& sweep, SweepResult& resu
     thin(prepared, wanted / static_cast<double>(std::max<std::size_t>(prepared.source.size(), 1)), result.stats);
   }
   result.stats.times.preprocess_ms = clock_.lap_ms();
-  const double passes = first ? TimeBudget::kFirstPasses : 1.0;
+  const double passes = first ? Preprocessor::kFirstPasses : 1.0;
   budget_.learn(Work::kPrepare, passes * static_cast<double>(taken.points.size()), result.stats.times.preprocess_ms);
   const SweepTime time = sweep_clock_.advance(prepared.mid_stamp_ns);
   result.stamp_ns = time.stamp_ns;
@@ -122,11 +120,11 @@ MotionState Pipeline::predict(const PreparedSweep& prepared) {
 InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const MotionState& predicted,
                                           SweepResult& result) {
   const std::function<Vector6d(const SE3&)> twist_at = [&](const SE3& T) { return tracker_.implied_twist(T); };
-  const double left_ms = kCoarseShare * (budget_.target_ms() - clock_.total_ms());
+  const double left_ms = kSearchShare * (budget_.target_ms() - clock_.total_ms());
   const double coarse_share = std::max(kLeastCoarse, budget_.share_in_time(budget_.ms(Work::kCoarseStart), left_ms));
   InitialPose init = initial_pose_.choose({prepared.source, predicted, tracker_.trusted().T_odom_lidar, twist_at,
                                            map_.map(), map_.first_can_be_compensated(), in_doubt(),
-                                           deadline(0.0).after(kCoarseShare), coarse_share});
+                                           deadline(0.0).after(kSearchShare), coarse_share});
   record(init, result.stats);
   result.stats.times.initial_pose_ms = clock_.lap_ms();
   if (!init.coarse_cut) {
@@ -190,7 +188,7 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
 
   const bool degenerate = result.status == OdometryStatus::kDegenerate;
   const Vector6d uneven = uneven_motion(prepared.source, map_.map(), icp, sigma_th_m, config_.icp,
-                                        PoseCovariance::evidence_share(config_.icp), kUnevenStride);
+                                        PoseCovariance::evidence_share(config_.icp), kSampleStride);
   result.covariance = pose_covariance_.of(icp, degenerate, twist_before,
                                           prepared.source.timed() ? tracker_.since_trusted_s() : 0.0, uneven);
   const Eigen::Vector3d step = tracker_.accept(icp, motion, degenerate);

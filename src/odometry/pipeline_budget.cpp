@@ -7,10 +7,6 @@
 
 namespace rilo {
 
-namespace {
-constexpr double kLateWork = 2.0;  // a registration that was cut would have taken longer
-}  // namespace
-
 /// When work has to end that leaves so much time for what follows.
 Deadline Pipeline::deadline(double reserve_ms) const {
   return budget_.limited() ? clock_.deadline(budget_.target_ms() - reserve_ms) : Deadline();
@@ -31,8 +27,9 @@ void Pipeline::learn_rest(const Registration& registration, const SweepResult& r
   if (established() && result.status != OdometryStatus::kRecovered && registration.starts == 1) {
     const double coarse_ms = result.stats.coarse_ran ? result.stats.times.initial_pose_ms : 0.0;
     const double took_ms = clock_.total_ms() - result.stats.times.preprocess_ms - coarse_ms;
+    // A registration that was cut would have taken longer.
     const bool late = registration.icp.termination == IcpTermination::kTimeLimit;
-    budget_.learn(Work::kRest, shares_.source, (late ? kLateWork : 1.0) * took_ms);
+    budget_.learn(Work::kRest, shares_.source, (late ? UsualTime::kSlowest : 1.0) * took_ms);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "odometry/running_mean.hpp"
+
 namespace rilo {
 
 namespace {
@@ -12,7 +14,6 @@ constexpr double kEvidenceWorth = 18.0;
 // A velocity that changes steadily by a within the sweep moves its points by a t² / 2 against the middle: a T² / 24 on
 // average over the sweep.
 constexpr double kMeanLag = 1.0 / 24.0;
-constexpr double kChangeLearningRate = 0.2;  // about five sweeps
 // Share of the mean square of the oscillation within the sweep that is in the pose: measured on the handheld drive and
 // eleven others.
 constexpr double kUnevenShare = 0.4;
@@ -43,9 +44,9 @@ Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6
     result += left * left.transpose();
   }
 
-  squared_change_ += kChangeLearningRate * ((icp.state.twist - before).cwiseAbs2() - squared_change_);
+  squared_change_ += kRunningShare * ((icp.state.twist - before).cwiseAbs2() - squared_change_);
   result.diagonal() += kMeanLag * kMeanLag * sweep_s * sweep_s * squared_change_;
-  uneven_ += kChangeLearningRate * (uneven - uneven_);
+  uneven_ += kRunningShare * (uneven - uneven_);
   result.diagonal() += kUnevenShare * uneven_;
   return result;
 }

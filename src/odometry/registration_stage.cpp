@@ -8,7 +8,9 @@
 
 #include "cloud/deskew.hpp"
 #include "cloud/fixed_chunks.hpp"
+#include "odometry/pose_noise.hpp"
 #include "registration/map_score.hpp"
+#include "registration/plane_residuals.hpp"
 
 namespace rilo {
 
@@ -20,14 +22,7 @@ constexpr int kNearbyRounds = 2;      // the last ones: the wide gate of the fir
 constexpr double kSecondStepM = 1.25;
 constexpr double kSecondSpeed = 37.5;     // m/s, 135 km/h: so far do the starts reach, ...
 constexpr double kSecondReachM = 40.0;    // ... but not where two sweeps share too little
-constexpr std::size_t kSecondStride = 8;  // a sample shows which basins are the best ones
-constexpr std::size_t kSecondStarts = 2;  // of which so many are tried with all points ...
-// ... if they fit the sample about as well as what was found: on 155 second sweeps those that won had at least 0.99 of
-// its quality, half of the others less than 0.6.
-constexpr double kWorthTrying = 0.9;
-// Optima nearer than this are the same one: their scores differ by the sample of the score.
-constexpr double kSameOptimumM = 0.1;
-constexpr double kSameOptimumRad = 0.02;
+constexpr std::size_t kSecondStarts = 2;  // of which so many are tried with all points
 
 TimedCloud every(const TimedCloud& cloud, std::size_t stride) {
   TimedCloud sample;
@@ -58,9 +53,10 @@ bool settles_better(const Registration& registration, const Registration& other)
   return (registration.icp.converged() && !other.icp.converged()) || (settled(registration) && !settled(other));
 }
 
+/// Poses nearer than the noise of good ones: their scores differ by the sample of the score.
 bool same_optimum(const Registration& a, const Registration& b) {
   const SE3 between = a.icp.state.T_odom_lidar.inverse() * b.icp.state.T_odom_lidar;
-  return between.translation().norm() <= kSameOptimumM && rotation_angle_rad(between) <= kSameOptimumRad;
+  return between.translation().norm() <= kPoseNoiseM && rotation_angle_rad(between) <= kPoseNoiseRad;
 }
 }  // namespace
 
@@ -155,7 +151,7 @@ std::vector<MotionState> RegistrationStage::starts_on_path(const MotionState& pr
 /// sees runs along the road or drives with the sensor. Registers a sample of it from places along the direction that
 /// it constrains least; the best results that lie elsewhere than `found` and each other, best first.
 std::vector<MotionState> RegistrationStage::other_second_starts(const Registration& found) const {
-  const TimedCloud sample = every(parts_.prepared.source, kSecondStride);
+  const TimedCloud sample = every(parts_.prepared.source, kSparseStride);
   const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
   const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
   std::vector<MotionState> places;
@@ -172,8 +168,10 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
       fits[i] = fit_of(sample, places[i], or_present(of_first_sweep(places[i].twist)));
     }
   });
+  // On 155 second sweeps those that won had at least 0.99 of its quality, half of the others less than 0.6.
+  const double worth_trying = 1.0 - parts_.config.initial_pose.margin;
   const double least =
-      settled(found) ? kWorthTrying * fit_of(sample, found.icp.state, or_present(found.first->map)).quality : 0.0;
+      settled(found) ? worth_trying * fit_of(sample, found.icp.state, or_present(found.first->map)).quality : 0.0;
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SampleFit& a, const SampleFit& b) { return a.quality > b.quality; });
   std::vector<MotionState> starts = {found.icp.state};
@@ -181,7 +179,7 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
     const bool elsewhere = std::all_of(starts.begin(), starts.end(), [&](const MotionState& start) {
       return (start.T_odom_lidar.translation() - fit.T_odom_lidar.translation()).norm() > 0.5 * kSecondStepM;
     });
-    if (elsewhere && fit.quality != kNotTried && fit.quality >= least && starts.size() <= kSecondStarts) {
+    if (elsewhere && fit.quality > 0.0 && fit.quality >= least && starts.size() <= kSecondStarts) {
       starts.push_back({fit.T_odom_lidar, parts_.tracker.implied_twist(fit.T_odom_lidar)});
     }
   }

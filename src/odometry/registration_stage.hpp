@@ -66,14 +66,10 @@ class RegistrationStage {
   /// Where a sample of the second sweep comes to rest from a start, and how well it fits there.
   struct SampleFit {
     SE3 T_odom_lidar = SE3::Identity();
-    double quality = kNotTried;
+    double quality = 0;  ///< 0: not tried
   };
-  static constexpr double kNotTried = -1.0;
   SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map) const;
   std::vector<MotionState> other_second_starts(const Registration& found) const;
-
-  /// Of the time left; after a loss, what was found has to hold in the rest of it.
-  static constexpr double kSearchShare = 0.7;
 
   Parts parts_;
   Deadline search_end_;

@@ -1,17 +1,19 @@
 #include "odometry/sweep_judge.hpp"
 
+#include "odometry/pose_noise.hpp"
+#include "odometry/sweep_map.hpp"
+
 namespace rilo {
 
 namespace {
-constexpr std::size_t kYoungSweeps = 5;  // a map of fewer explains less of a sweep than usual
-constexpr int kMostBeginnings = 10;      // a robot may start where the place shows no better second sweep
-constexpr double kMostLeftM = 0.1;     // with 0.03 m hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are
+constexpr int kMostBeginnings = 10;    // a robot may start where the place shows no better second sweep
 constexpr double kShrunk = 1.0 / 3.0;  // of the last median range: doors and passing lorries take less at once
 
-/// Out of time while the points still moved by more than that: each update leaves about as much as it was.
+/// Out of time while the points still moved by more than that: each update leaves about as much as it was. (With 0.03 m
+/// hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are.)
 bool cut_off(const IcpResult& icp, double range_m) {
   return icp.termination == IcpTermination::kTimeLimit &&
-         icp.last_update.tail<3>().norm() + range_m * icp.last_update.head<3>().norm() > kMostLeftM;
+         icp.last_update.tail<3>().norm() + range_m * icp.last_update.head<3>().norm() > kPoseNoiseM;
 }
 }  // namespace
 
@@ -21,7 +23,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.source_points = prepared.source.size();
   evidence.score = registration.score;
   evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
-  evidence.young_map = before.map_sweeps > 1 && before.map_sweeps < kYoungSweeps;
+  evidence.young_map = before.map_sweeps > 1 && before.map_sweeps < kEstablishedSweeps;
   evidence.usual_score = before.usual_score;
   evidence.was_lost = before.was_lost;
   evidence.shrunk = prepared.median_range_m < kShrunk * median_range_m_;

@@ -12,6 +12,9 @@
 
 namespace rilo {
 
+/// A map of fewer sweeps explains less of a sweep than usual, and the prediction needs two motions.
+inline constexpr std::size_t kEstablishedSweeps = 3;
+
 /// Local map with the number of its sweeps. The velocity of its first sweep is unknown and taken as given: once the
 /// second sweep shows it, first_compensated() is the map as it should have begun.
 class SweepMap {

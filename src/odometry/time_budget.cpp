@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/preprocess.hpp"
+#include "odometry/running_mean.hpp"
+
 namespace rilo {
 
 namespace {
 constexpr double kTarget = 0.85;        // of the budget
 constexpr double kMostPreparing = 0.3;  // of the target: beyond it, raw points are left out
-constexpr double kRate = 0.2;           // of learning: about five sweeps
-constexpr double kSlowest = 2.0;        // times the mean; beyond it a time is an accident rather than a trend
 // Before anything is known: a slow machine; ratios as on all machines and drives measured.
 constexpr double kPrepareGuessMs = 1e-4;
 constexpr double kCoarseOverPrepare = 2e5;
@@ -24,8 +25,8 @@ void UsualTime::learn(double value) {
     return;
   }
   const double error = std::min(value, kSlowest * mean_) - mean_;
-  mean_ += kRate * error;
-  deviation_ += kRate * (std::abs(error) - deviation_);
+  mean_ += kRunningShare * error;
+  deviation_ += kRunningShare * (std::abs(error) - deviation_);
 }
 
 double TimeBudget::target_ms() const { return kTarget * config_.sweep_ms; }
@@ -35,7 +36,7 @@ PointShares TimeBudget::affordable(std::size_t raw_points, bool first, bool in_d
   if (!limited()) {
     return shares;
   }
-  const double passes = first ? kFirstPasses : 1.0;
+  const double passes = first ? Preprocessor::kFirstPasses : 1.0;
   const double prepare_ms = passes * ms(Work::kPrepare, static_cast<double>(raw_points));
   const double most_ms = kMostPreparing * target_ms();
   shares.raw = prepare_ms > most_ms ? std::max(kLeastShare, most_ms / prepare_ms) : 1.0;

@@ -23,6 +23,8 @@ inline constexpr std::size_t kWorkCount = 5;
 /// about the last five.
 class UsualTime {
  public:
+  static constexpr double kSlowest = 2.0;  ///< times the mean; beyond it a time is an accident rather than a trend
+
   bool known() const { return mean_ > 0.0; }
   double mean() const { return mean_; }
   double upper() const { return mean_ + 2.0 * deviation_; }
@@ -70,8 +72,7 @@ class TimeBudget {
 
   void reset() { *this = TimeBudget(config_, static_cast<int>(source_points_)); }
 
-  static constexpr double kLeastShare = 0.1;   ///< with fewer points a sweep is not registered reliably
-  static constexpr double kFirstPasses = 4.0;  ///< the first sweep is prepared as often until its scale is found
+  static constexpr double kLeastShare = 0.1;  ///< with fewer points a sweep is not registered reliably
 
  private:
   /// Least work of a sweep in doubt, in usual ones; not cut it has 6 to 10 times as much.

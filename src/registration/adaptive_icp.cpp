@@ -9,7 +9,6 @@ namespace rilo {
 
 namespace {
 
-constexpr std::size_t kLeastCorrespondences = 10;  // of six unknowns, with something to spare
 // Below this many points a stride saves nothing and loses accuracy.
 constexpr std::size_t kLeastForStride = 4000;
 // The information on a direction counts beyond this multiple of what errors of the normals alone would show there

@@ -8,6 +8,7 @@
 #include "cloud/fixed_chunks.hpp"
 #include "registration/covariances.hpp"
 #include "registration/density_filter.hpp"
+#include "registration/normal_equations.hpp"
 
 namespace rilo {
 
@@ -15,7 +16,6 @@ namespace {
 // Converged below these: the fine registration does the rest.
 constexpr double kRotationEpsilonRad = 5e-4;
 constexpr double kTranslationEpsilonM = 5e-3;
-constexpr std::size_t kLeastPairs = 20;  // fewer overlap by chance
 // Sparse clouds: most of a search among smaller cells would be looking into empty ones.
 constexpr double kCellVoxels = 4.0;
 }  // namespace
@@ -85,7 +85,7 @@ CoarseResult coarse_registration(const DistributionCloud& source, const Distribu
     const CoarseSums sums = linearise(source, target, result.T_target_source, noise, config, matches);
     result.pairs = sums.pairs;
     result.mean_weight = source.size() > 0 ? sums.weight / static_cast<double>(source.size()) : 0.0;
-    if (sums.pairs < kLeastPairs) {
+    if (sums.pairs < kLeastCorrespondences) {
       break;
     }
     const double lambda = config.damping * sums.H.diagonal().maxCoeff();

@@ -9,6 +9,9 @@
 
 namespace rilo {
 
+/// For six unknowns, with something to spare.
+inline constexpr std::size_t kLeastCorrespondences = 10;
+
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 

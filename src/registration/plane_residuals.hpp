@@ -14,6 +14,11 @@
 
 namespace rilo {
 
+/// Where many points show the same, every so many of them are used: for figures that are averaged over sweeps, ...
+inline constexpr std::size_t kSampleStride = 4;
+/// ... and for what only has to be about right.
+inline constexpr std::size_t kSparseStride = 8;
+
 /// A point and its surface element.
 struct PlaneResidual {
   std::size_t index = 0;   ///< of the point in the sweep

@@ -5,12 +5,11 @@
 #include "cloud/deskew.hpp"
 #include "cloud/fixed_chunks.hpp"
 #include "registration/adaptive_icp.hpp"
+#include "registration/plane_residuals.hpp"
 
 namespace rilo {
 
 namespace {
-
-constexpr std::size_t kNoiseStride = 8;  // a sample of the points suffices for the noise of the normals
 
 /// Weights residuals and adds them to normal equations, all at one state.
 class Equations {
@@ -128,7 +127,7 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
         const Eigen::Vector3d normal = match.normal.cast<double>();
         const double distance_m = normal.dot(p) - match.distance_m;  // (p − q)·n
         const double beta = equations.add(i, p, normal, distance_m, static_cast<double>(match.weight));
-        if (k % kNoiseStride == 0 && beta > 0.0) {
+        if (k % kSparseStride == 0 && beta > 0.0) {
           noise[chunk] += jacobian_moment(p - t, beta * match.spot.grid->normal_covariance_at(match.spot));
         }
       }
@@ -139,7 +138,7 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
   NormalEquations total;
   for (std::size_t chunk = 0; chunk < partial.size(); ++chunk) {
     total += partial[chunk];
-    noises += static_cast<double>(kNoiseStride) * noise[chunk];
+    noises += static_cast<double>(kSparseStride) * noise[chunk];
   }
   normal_noise_ = noises.selfadjointView<Eigen::Lower>();
   return total;

@@ -53,9 +53,9 @@ TEST(Judging, OneIterationIsNoFailureAndASingularSystemIs) {
   EXPECT_EQ(judge(registered(IcpTermination::kSingular), evidence(0.8), kHealth), OdometryStatus::kLost);
 }
 
-TEST(Judging, ASweepThatDoesNotConvergeIsLost) {
+TEST(Judging, ASweepThatDoesNotConvergeWithHeldMatchesIsLost) {
   IcpResult icp = registered(IcpTermination::kIterationLimit);
-  icp.iterations = 24;
+  icp.frozen = true;
   EXPECT_EQ(judge(icp, evidence(0.8), kHealth), OdometryStatus::kLost);
   EXPECT_FALSE(fits_map(icp, evidence(0.8), kHealth));
   icp.termination = IcpTermination::kConverged;

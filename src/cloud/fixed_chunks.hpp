@@ -8,6 +8,9 @@
 #if defined(__SANITIZE_THREAD__)
 #include <sanitizer/tsan_interface.h>
 #endif
+#if defined(RILO_RECORD_LOOPS)
+#include "cloud/loop_record.hpp"
+#endif
 
 namespace rilo {
 
@@ -32,6 +35,12 @@ void for_each_index(std::size_t count, const Body& body) {
     }
     return;
   }
+#if defined(RILO_RECORD_LOOPS)
+  if (LoopRecord* record = LoopRecord::current()) {
+    record->run(__PRETTY_FUNCTION__, count, body);
+    return;
+  }
+#endif
   HandOver work;
   HandOver results;
   work.give();

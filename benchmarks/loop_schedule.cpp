@@ -17,7 +17,7 @@ namespace rilo::bench {
 namespace {
 
 constexpr std::size_t kRepeats = 1000;
-constexpr std::size_t kQuartile = kRepeats / 4;  // above it other work on the machine shows
+constexpr std::size_t kDecile = kRepeats / 10;  // above it other work on the machine shows
 constexpr std::int64_t kBusyNs = 100'000;        // as much as a task of the odometry
 constexpr std::size_t kEmptyTasks = 1024;
 
@@ -28,7 +28,7 @@ void be_busy() {
 }
 
 template <typename Body>
-double quartile_ns(const Body& body) {
+double decile_ns(const Body& body) {
   std::vector<double> times;
   for (std::size_t i = 0; i < kRepeats; ++i) {
     be_busy();
@@ -36,8 +36,8 @@ double quartile_ns(const Body& body) {
     body();
     times.push_back(static_cast<double>(steady_ns() - begin_ns));
   }
-  std::nth_element(times.begin(), times.begin() + kQuartile, times.end());
-  return times[kQuartile];
+  std::nth_element(times.begin(), times.begin() + kDecile, times.end());
+  return times[kDecile];
 }
 
 }  // namespace
@@ -69,12 +69,12 @@ ThreadCost measured_thread_cost() {
   tbb::task_arena arena(2);
   ThreadCost cost;
   arena.execute([&] {
-    const double both = quartile_ns([] { tbb::parallel_for(0, 2, [](int) { be_busy(); }); });
+    const double both = decile_ns([] { tbb::parallel_for(0, 2, [](int) { be_busy(); }); });
     cost.fork_join_ns = std::max(0.0, both - static_cast<double>(kBusyNs));
   });
   tbb::task_arena alone(1);
   alone.execute([&] {
-    cost.task_ns = quartile_ns([] { tbb::parallel_for(std::size_t{0}, kEmptyTasks, [](std::size_t) {}); }) /
+    cost.task_ns = decile_ns([] { tbb::parallel_for(std::size_t{0}, kEmptyTasks, [](std::size_t) {}); }) /
                    static_cast<double>(kEmptyTasks);
   });
   return cost;

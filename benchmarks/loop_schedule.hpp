@@ -21,7 +21,7 @@ inline constexpr int kUnlimitedThreads = std::numeric_limits<int>::max();
 double makespan_ns(const std::vector<std::int64_t>& task_ns, int threads, const ThreadCost& cost);
 
 /// Measured with two threads of oneTBB: loops of two tasks, after a stretch of serial work as between the loops of a
-/// sweep. Lower quartiles.
+/// sweep. Lowest deciles.
 ThreadCost measured_thread_cost();
 
 }  // namespace rilo::bench

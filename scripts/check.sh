@@ -26,7 +26,7 @@ phases=(test lint docs sanitize threads fuzz coverage instructions package arm w
 # Long drives under sanitizers take half an hour.
 long='Elevation.(AnErrorIsFound|ASensorWithoutError)|BeamCalibration.AWorseUnit|Covariance|SameAsCommand'
 # What has threads of its own, and what runs in oneTBB's; and the programs with these tests.
-threaded='Pipeline|Preprocess|LocalMap|CoarseRegistration|AdaptiveIcp|PrefetchSource|Live(Source|Queue)|View(Server|History)'
+threaded='Pipeline|TimeBudget|Preprocess|VoxelMean|BeamIndex|Deskew|LocalMap|UnevenMotion|Deadlines|CoarseRegistration|AdaptiveIcp|PrefetchSource|Live(Source|Queue)|View(Server|History)'
 threaded_programs='cloud_test map_test registration_test calibration_test pipeline_test io_test view_test'
 
 run_phase() {

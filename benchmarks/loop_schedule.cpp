@@ -1,7 +1,7 @@
 #include "loop_schedule.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <cstddef>
 #include <functional>
 #include <numeric>
@@ -17,27 +17,28 @@ namespace rilo::bench {
 namespace {
 
 constexpr std::size_t kRepeats = 1000;
-constexpr std::size_t kDecile = kRepeats / 10;  // above it other work on the machine shows
-constexpr std::int64_t kBusyNs = 100'000;        // as much as a task of the odometry
+constexpr std::size_t kRank = kRepeats / 100;
+constexpr std::int64_t kPauseNs = 50'000;  // as long as the serial work between two loops
+constexpr std::int64_t kTaskNs = 300'000;  // longer than a thread needs to wake up
 constexpr std::size_t kEmptyTasks = 1024;
 
-void be_busy() {
-  const std::int64_t end_ns = steady_ns() + kBusyNs;
+void be_busy(std::int64_t duration_ns) {
+  const std::int64_t end_ns = steady_ns() + duration_ns;
   while (steady_ns() < end_ns) {
   }
 }
 
 template <typename Body>
-double decile_ns(const Body& body) {
+double lowest_ns(const Body& body) {
   std::vector<double> times;
   for (std::size_t i = 0; i < kRepeats; ++i) {
-    be_busy();
+    be_busy(kPauseNs);
     const std::int64_t begin_ns = steady_ns();
     body();
     times.push_back(static_cast<double>(steady_ns() - begin_ns));
   }
-  std::nth_element(times.begin(), times.begin() + kDecile, times.end());
-  return times[kDecile];
+  std::nth_element(times.begin(), times.begin() + kRank, times.end());
+  return times[kRank];
 }
 
 }  // namespace
@@ -52,8 +53,10 @@ double makespan_ns(const std::vector<std::int64_t>& task_ns, int threads, const 
   if (threads == kUnlimitedThreads) {
     return static_cast<double>(*std::max_element(task_ns.begin(), task_ns.end()));
   }
-  std::priority_queue<double, std::vector<double>, std::greater<>> free_at(
-      std::greater<>(), std::vector<double>(static_cast<std::size_t>(threads), 0.0));
+  std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
+  for (unsigned i = 0; i < static_cast<unsigned>(threads); ++i) {
+    free_at.push(cost.wake_ns * std::bit_width(i));
+  }
   double end = 0;
   for (const std::int64_t ns : task_ns) {
     const double done = free_at.top() + static_cast<double>(ns) + cost.task_ns;
@@ -61,7 +64,7 @@ double makespan_ns(const std::vector<std::int64_t>& task_ns, int threads, const 
     free_at.push(done);
     end = std::max(end, done);
   }
-  return end + cost.fork_join_ns * std::log2(threads);
+  return end;
 }
 
 ThreadCost measured_thread_cost() {
@@ -69,12 +72,12 @@ ThreadCost measured_thread_cost() {
   tbb::task_arena arena(2);
   ThreadCost cost;
   arena.execute([&] {
-    const double both = decile_ns([] { tbb::parallel_for(0, 2, [](int) { be_busy(); }); });
-    cost.fork_join_ns = std::max(0.0, both - static_cast<double>(kBusyNs));
+    const double both = lowest_ns([] { tbb::parallel_for(0, 2, [](int) { be_busy(kTaskNs); }); });
+    cost.wake_ns = std::max(0.0, both - static_cast<double>(kTaskNs));
   });
   tbb::task_arena alone(1);
   alone.execute([&] {
-    cost.task_ns = decile_ns([] { tbb::parallel_for(std::size_t{0}, kEmptyTasks, [](std::size_t) {}); }) /
+    cost.task_ns = lowest_ns([] { tbb::parallel_for(std::size_t{0}, kEmptyTasks, [](std::size_t) {}); }) /
                    static_cast<double>(kEmptyTasks);
   });
   return cost;

@@ -9,8 +9,8 @@ namespace rilo::bench {
 
 /// What running in parallel costs beside the work, ns.
 struct ThreadCost {
-  double fork_join_ns = 0;  ///< of a loop, for each doubling of the threads: they are woken as a tree
-  double task_ns = 0;       ///< of a task
+  double wake_ns = 0;  ///< until a thread that was woken begins; each that runs wakes another one, so that they double
+  double task_ns = 0;  ///< of a task
 };
 
 /// That many threads, with a cost of their own: the longest task remains.
@@ -20,8 +20,8 @@ inline constexpr int kUnlimitedThreads = std::numeric_limits<int>::max();
 /// tasks. On unlimited ones: the longest task, at no cost.
 double makespan_ns(const std::vector<std::int64_t>& task_ns, int threads, const ThreadCost& cost);
 
-/// Measured with two threads of oneTBB: loops of two tasks, after a stretch of serial work as between the loops of a
-/// sweep. Lowest deciles.
+/// Measured with two threads of oneTBB that have been idle for as long as between the loops of a sweep. The lowest
+/// percent of the times: others are those of a machine that is busy.
 ThreadCost measured_thread_cost();
 
 }  // namespace rilo::bench

@@ -28,6 +28,7 @@ struct Stretch {
   std::size_t warm_up = 20;   // sweeps before the measured ones
   std::size_t measured = 40;  // sweeps
   std::size_t runs = 5;       // of each sweep the fastest one counts
+  std::optional<double> wake_us;
 };
 
 /// A sweep on one thread.
@@ -150,9 +151,12 @@ double mean_ms(const std::vector<RecordedSweep>& sweeps) {
 
 void study(const Stretch& stretch, std::ostream& out) {
   const std::vector<Sweep> sweeps = read(stretch);
-  const ThreadCost cost = measured_thread_cost();
+  ThreadCost cost = measured_thread_cost();
+  if (stretch.wake_us) {
+    cost.wake_ns = *stretch.wake_us * 1e3;
+  }
   const std::map<std::string, Prediction> predictions = predict(run(sweeps, stretch, 1, true), cost);
-  out << "# " << stretch.drive << "\n# fork and join " << cost.fork_join_ns << " ns, task " << cost.task_ns << " ns\n"
+  out << "# " << stretch.drive << "\n# a thread wakes up in " << cost.wake_ns << " ns, task " << cost.task_ns << " ns\n"
       << "what,loops,tasks,serial_ms,threads_1_ms,threads_2_ms,threads_4_ms,threads_8_ms,threads_16_ms,unlimited_ms\n";
   const auto n = static_cast<double>(stretch.measured);
   for (const auto& [what, prediction] : predictions) {
@@ -181,6 +185,8 @@ int main(int argc, char** argv) {
   app.add_option("--runs", stretch.runs, "of each sweep the fastest one counts")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--wake-us", stretch.wake_us, "until a thread that was woken begins; measured unless given")
+      ->check(CLI::NonNegativeNumber);
   CLI11_PARSE(app, argc, argv);
   try {
     rilo::bench::study(stretch, std::cout);

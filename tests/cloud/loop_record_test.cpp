@@ -74,12 +74,14 @@ TEST(LoopSchedule, AFreeThreadTakesTheNextTask) {
   EXPECT_THAT(bench::makespan_ns({}, 2, {}), DoubleEq(0));
 }
 
-TEST(LoopSchedule, ThreadsCost) {
+TEST(LoopSchedule, ThreadsBeginLateAndTasksCost) {
   const std::vector<std::int64_t> tasks = {30, 10, 10, 40};
-  const bench::ThreadCost cost{100, 1};
+  const bench::ThreadCost cost{15, 1};
   EXPECT_THAT(bench::makespan_ns(tasks, 1, cost), DoubleEq(90));
-  EXPECT_THAT(bench::makespan_ns(tasks, 2, cost), DoubleEq(100 + 63));
-  EXPECT_THAT(bench::makespan_ns(tasks, 16, cost), DoubleEq(400 + 41));
+  // One: 0 … 31, then 37 … 78; the other: 15 … 26 … 37.
+  EXPECT_THAT(bench::makespan_ns(tasks, 2, cost), DoubleEq(31 + 41));
+  // The third and fourth thread wake up at 30: 0 … 31, 15 … 26 … 37, 30 … 71.
+  EXPECT_THAT(bench::makespan_ns(tasks, 4, cost), DoubleEq(71));
   EXPECT_THAT(bench::makespan_ns(tasks, bench::kUnlimitedThreads, cost), DoubleEq(40));
 }
 

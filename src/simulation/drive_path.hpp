@@ -1,7 +1,6 @@
 // The way of the vehicle: where it is at any time.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>

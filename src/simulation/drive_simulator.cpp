@@ -49,12 +49,6 @@ std::size_t sweeps_of_a_lap(const DriveConfig& config, const SensorModel& sensor
   return sweeps;
 }
 
-// The directions of a column's beams in the sensor frame: as the sensor believes, and as they are.
-struct Beam {
-  Eigen::Vector3d reported;
-  Eigen::Vector3d actual;
-};
-
 Eigen::Vector3d direction(double azimuth, double elevation) {
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
@@ -107,12 +101,12 @@ void DriveSimulator::Impl::cast_column(std::size_t sweep, std::size_t column, co
   for (std::size_t ring = 0; ring < sensor_.beams(); ++ring) {
     // One return: the surface, then what the sensor makes of it.
     const double elevation = sensor_.elevations_rad[ring];
-    const Beam beam = {direction(azimuth, elevation),
-                       direction(azimuth, elevation + config_.elevation_bias_deg * kRadPerDeg)};
+    const Eigen::Vector3d reported = direction(azimuth, elevation);
+    const Eigen::Vector3d actual = direction(azimuth, elevation + config_.elevation_bias_deg * kRadPerDeg);
     simulation::RandomStream random(config_.seed, 0xbea3, sweep, column, ring);
     Hit hit;
     hit.range_m = max_range_m_;
-    const Ray ray{origin, T_world_sensor.linear() * beam.actual};
+    const Ray ray{origin, T_world_sensor.linear() * actual};
     town_.cast(ray, hit);
     traffic.cast(ray, hit);
     const bool lost = random.chance(config_.dropout);
@@ -122,7 +116,7 @@ void DriveSimulator::Impl::cast_column(std::size_t sweep, std::size_t column, co
     const double range = hit.range_m + config_.noise_m * random.normal();
     if (lost || through || faint || hit.range_m >= max_range_m_ || range < sensor_.min_range_m) continue;
     const double intensity = hit.reflectivity * std::sqrt(hit.cos_incidence) + kIntensityNoise * random.normal();
-    const Eigen::Vector3d p = range * beam.reported;
+    const Eigen::Vector3d p = range * reported;
     out.points.push_back((config_.deskewed ? T_mid_sensor * p : p).cast<float>());
     if (!config_.deskewed) out.times_s.push_back(static_cast<float>(fraction * sensor_.period_s));
     out.intensities.push_back(static_cast<float>(std::clamp(intensity, 0.0, 1.0)));
@@ -150,9 +144,7 @@ const DrivePath& DriveSimulator::path() const { return impl_->path_; }
 SE3 DriveSimulator::pose_at(double t_s) const { return impl_->pose_at(t_s); }
 
 SimulatedSweep DriveSimulator::sweep(std::size_t i) const {
-  if (i >= size()) {
-    throw std::out_of_range("sweep " + std::to_string(i) + " of a drive of " + std::to_string(size()));
-  }
+  if (i >= size()) throw std::out_of_range("sweep " + std::to_string(i) + " of a drive of " + std::to_string(size()));
   const double period_s = sensor().period_s;
   const auto pose = [this, period_s](std::size_t sweep, double fraction) {
     return pose_at((static_cast<double>(sweep) + fraction) * period_s);

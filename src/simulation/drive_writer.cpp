@@ -1,10 +1,6 @@
 #include "simulation/drive_writer.hpp"
 
-#include <array>
 #include <cerrno>
-#include <cstdint>
-#include <cstdio>
-#include <cstring>
 #include <iomanip>
 #include <set>
 #include <sstream>
@@ -34,9 +30,7 @@ void write_floats(const fs::path& path, const std::vector<float>& values) {
 void create_folder(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error || !fs::is_directory(path, error)) {
-    fail(path, "cannot be created", error ? error.value() : ENOTDIR);
-  }
+  if (error || !fs::is_directory(path, error)) fail(path, "cannot be created", error ? error.value() : ENOTDIR);
 }
 
 // Of the command, where the folder itself cannot be locked: whoever holds it goes on holding it.
@@ -70,9 +64,8 @@ void prepare_folder(const fs::path& folder) {
 }
 
 std::string file_name(std::size_t i) {
-  std::array<char, 32> name{};
-  std::snprintf(name.data(), name.size(), "%06zu.bin", i);
-  return name.data();
+  const std::string number = std::to_string(i);
+  return std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + ".bin";
 }
 
 void write_sweep(const fs::path& folder, std::size_t i, const Sweep& sweep, double period_s) {

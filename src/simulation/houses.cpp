@@ -1,15 +1,16 @@
-#include "simulation/houses.hpp"
-
+// Rows of houses.
 #include <algorithm>
 #include <cmath>
 
 #include "simulation/counter_random.hpp"
 #include "simulation/course.hpp"
+#include "simulation/street_sides.hpp"
 
 namespace rilo::simulation {
 namespace {
 
-constexpr double kFootM = 1.2;  // walls reach this far into the ground, which slopes
+constexpr double kFrontM = 8.6;  // house fronts from a street's centre, at the least
+constexpr double kFootM = 1.2;   // walls reach this far into the ground, which slopes
 
 // A place for a house: its front runs from `corner` along `along`, its body lies to `away` from the street.
 struct Plot {

@@ -99,9 +99,7 @@ void cast_house(const Solid& s, const Ray& ray, Hit& hit) {
 void cast_box(const Solid& s, const Ray& ray, Hit& hit) {
   const Ray local = to_local(s, ray);
   const BoxEntry entry = enter_box(local, s.half);
-  if (entry.range < hit.range_m) {
-    hit.offer(entry.range, std::abs(local.direction[entry.axis]), s.reflectivity, s.glass);
-  }
+  if (entry.range < hit.range_m) hit.offer(entry.range, std::abs(local.direction[entry.axis]), s.reflectivity, s.glass);
 }
 
 void cast_cylinder(const Solid& s, const Ray& ray, Hit& hit) {

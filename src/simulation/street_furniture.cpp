@@ -1,11 +1,11 @@
-#include "simulation/street_furniture.hpp"
-
+// What stands between the road and the houses.
 #include <cmath>
 #include <numbers>
 
 #include "simulation/car_body.hpp"
 #include "simulation/counter_random.hpp"
 #include "simulation/course.hpp"
+#include "simulation/street_sides.hpp"
 
 namespace rilo::simulation {
 namespace {

@@ -1,11 +1,9 @@
 #include "simulation/town.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "simulation/course.hpp"
-#include "simulation/houses.hpp"
-#include "simulation/street_furniture.hpp"
+#include "simulation/street_sides.hpp"
 
 namespace rilo::simulation {
 namespace {
@@ -16,7 +14,7 @@ using Segment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 
 Eigen::Vector2d street_centre(const DrivePath& path, double distance_m) {
   const Eigen::Vector2d d = path.direction(distance_m);
-  return path.position(distance_m) + kLaneOffsetM * Eigen::Vector2d(-d.y(), d.x());
+  return path.position(distance_m) + kLaneOffsetM * left_of(d);
 }
 
 // The street below the course follows its bends; the side streets are straight.

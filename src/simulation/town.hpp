@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "simulation/drive_path.hpp"
 #include "simulation/ground.hpp"

@@ -1,7 +1,6 @@
 // Small scenes with exact geometry, for tests: clouds whose surfaces can be written down.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// What stands between the road and the houses.
+// What stands along the streets.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,10 @@
 #include "simulation/solid.hpp"
 
 namespace rilo::simulation {
+
+/// Houses along both sides of every street and across the ends of the side streets, with windows, doors, pilasters,
+/// string courses and balconies.
+void add_houses(const Ground& ground, std::uint64_t seed, std::vector<Solid>& solids);
 
 /// Lamp posts, signs, trees (at a share `trees` of their places), bins, cabinets and bollards on the pavements.
 void add_street_furniture(const Ground& ground, std::uint64_t seed, double trees, std::vector<Solid>& solids);

@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "bench/paper.hpp"
 #include "bench/peer_figures.hpp"
@@ -189,11 +188,9 @@ void add_common_flags(CLI::App& command, BenchFlags& flags) {
                   "threads; 0: as many as the machine has. Default: as configured; with --jobs, an equal share of the "
                   "machine's; on Slurm, the processors of the task")
       ->check(whole_number(1024));
-  command
-      .add_option_function<std::string>(
-          "--on", [&order](const std::string& where) { order.on_slurm = where == "slurm"; },
-          "local (default), or slurm: cells as job arrays, see docs/cluster.md")
-      ->check(CLI::IsMember({"local", "slurm"}));
+  add_choice(
+      command, "--on", [&order](const std::string& where) { order.on_slurm = where == "slurm"; }, {"local", "slurm"},
+      "local (default), or slurm: cells as job arrays, see docs/cluster.md");
   command
       .add_option("--jobs", order.at_a_time,
                   "cells at a time; default: one here (times are then its own), on Slurm as many as it has room for")
@@ -240,7 +237,7 @@ int run_jobs(const BenchFlags& flags, std::vector<BenchJob> jobs) {
   if (!order.on_slurm && !order.sbatch.empty()) {
     throw RunError(RunErrorKind::kUsage, "bench: --sbatch goes with --on slurm");
   }
-  return flags.cell ? run_bench_cell(order, std::move(jobs), *flags.cell) : run_bench(order, std::move(jobs));
+  return flags.cell ? run_bench_cell(order, jobs, *flags.cell) : run_bench(order, std::move(jobs));
 }
 
 int bench_command(const CLI::App& command, BenchFlags& flags) {

@@ -1,32 +1,19 @@
 #include "checks.hpp"
 
-#include <charconv>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "io/text.hpp"
+
 namespace rilo::cli {
-
-namespace {
-
-template <typename Number>
-std::optional<Number> parse(const std::string& text) {
-  Number value{};
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return value;
-}
-
-}  // namespace
 
 CLI::Validator number_within(double least, double most) {
   return {[=](std::string& text) {
-            const auto value = parse<double>(text);
+            const auto value = detail::parse_double(text);
             // False for NaN.
             if (value && *value >= least && *value <= most) return std::string();
             return fmt::format("\"{}\" is not a number from {} to {}", text, least, most);
@@ -36,9 +23,9 @@ CLI::Validator number_within(double least, double most) {
 
 CLI::Validator whole_number(std::int64_t most) {
   return {[=](std::string& text) {
-            const auto value = parse<std::int64_t>(text);
+            const auto value = detail::parse_integer(text);
             if (value && *value >= 0 && *value <= most) return std::string();
-            if (most == std::numeric_limits<std::int64_t>::max()) {
+            if (most == kAnyCount) {
               return fmt::format("\"{}\" is not a non-negative integer", text);
             }
             return fmt::format("\"{}\" is not an integer from 0 to {}", text, most);
@@ -49,6 +36,16 @@ CLI::Validator whole_number(std::int64_t most) {
 CLI::Validator path_given() {
   return {[](std::string& text) { return text.empty() ? std::string("a path was expected, not an empty word") : ""; },
           ""};
+}
+
+CLI::Option* add_number(CLI::App& command, const char* name, double& value, double least, double most,
+                        const char* help) {
+  return command.add_option(name, value, help)->check(number_within(least, most))->capture_default_str();
+}
+
+CLI::Option* add_choice(CLI::App& command, const char* name, const std::function<void(const std::string&)>& take,
+                        std::vector<std::string> words, const char* help) {
+  return command.add_option_function<std::string>(name, take, help)->check(CLI::IsMember(std::move(words)));
 }
 
 }  // namespace rilo::cli

@@ -19,5 +19,7 @@ void add_simulate_command(CLI::App& app, int& exit_code);
 void add_config_command(CLI::App& app, int& exit_code);
 void add_view_command(CLI::App& app, int& exit_code);
 void add_info_command(CLI::App& app, int& exit_code);
+/// rilo man and rilo completion, which describe `app` with all that it has when they are run.
+void add_describe_commands(CLI::App& app, int& exit_code);
 
 }  // namespace rilo::cli

@@ -1,4 +1,4 @@
-// What the command understands, as data: for the man page and for completion.
+// What the command understands, as data; the man page and the completion of shells that are made of it.
 #pragma once
 
 #include <string>
@@ -33,5 +33,13 @@ TreeCommand command_tree(const CLI::App& app);
 
 /// The command and all below it, each before its own.
 std::vector<const TreeCommand*> flattened(const TreeCommand& tree);
+
+/// roff for man(1), section 1, of the whole command with all its subcommands.
+std::string man_page(const TreeCommand& tree, const std::string& version);
+
+/// Scripts that complete subcommands, options and the words of options that have few; files elsewhere.
+std::string bash_completion(const TreeCommand& tree);
+std::string zsh_completion(const TreeCommand& tree);
+std::string fish_completion(const TreeCommand& tree);
 
 }  // namespace rilo::cli

@@ -1,5 +1,4 @@
-#include "describe_command.hpp"
-
+// rilo man, rilo completion.
 #include <iostream>
 #include <map>
 #include <memory>
@@ -9,8 +8,6 @@
 #include "command.hpp"
 #include "command_tree.hpp"
 #include "console/version.hpp"
-#include "man_page.hpp"
-#include "shell_completion.hpp"
 
 namespace rilo::cli {
 

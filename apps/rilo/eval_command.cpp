@@ -22,7 +22,7 @@ struct EvalFlags {
   std::string truth;
   std::string estimate;
   std::vector<std::string> more;
-  TruthInstant instant = TruthInstant::kMid;
+  PoseInstant instant = PoseInstant::kMid;
   PairingOptions pairing;
   bool json = false;
 };
@@ -101,23 +101,18 @@ void add_flags(CLI::App& command, EvalFlags& flags) {
   command.add_option("GT", flags.truth, "true poses: a file, or a data folder")->required();
   command.add_option("EST", flags.estimate, "estimated poses")->required();
   command.add_option("MORE", flags.more, "further pairs GT EST, one per sequence");
-  command
-      .add_option_function<std::string>(
-          "--instant", [&flags](const std::string& text) { flags.instant = parse_truth_instant(text).value(); },
-          "time within the sweep of the true poses when GT is a drive simulator's folder. Default: mid")
-      ->check(CLI::IsMember({"start", "mid", "end"}));
-  command
-      .add_option_function<std::string>(
-          "--associate", [&flags](const std::string& text) { flags.pairing.pairing = parse_pairing(text); },
-          "pair poses by index or by stamp. Default: auto, by stamp when both files have stamps")
-      ->check(CLI::IsMember({"auto", "index", "stamp"}));
-  command.add_option("--max-gap-s", flags.pairing.max_gap_s, "largest distance of two stamps that belong together")
-      ->check(number_within(0, 1e6))
-      ->capture_default_str();
-  command
-      .add_option("--start", flags.pairing.first, "by index: the true pose that EST begins with, as for run --start")
-      ->check(whole_number())
-      ->capture_default_str();
+  add_choice(
+      command, "--instant", [&flags](const std::string& text) { flags.instant = parse_pose_instant(text).value(); },
+      {"start", "mid", "end"},
+      "time within the sweep of the true poses when GT is a drive simulator's folder. Default: mid");
+  add_choice(
+      command, "--associate", [&flags](const std::string& text) { flags.pairing.pairing = parse_pairing(text); },
+      {"auto", "index", "stamp"},
+      "pair poses by index or by stamp. Default: auto, by stamp when both files have stamps");
+  add_number(command, "--max-gap-s", flags.pairing.max_gap_s, 0, 1e6,
+             "largest distance of two stamps that belong together");
+  add_count(command, "--start", flags.pairing.first, kAnyCount,
+            "by index: the true pose that EST begins with, as for run --start");
   command.add_flag("--json", flags.json, "print JSON");
 }
 

@@ -1,6 +1,5 @@
 // rilo info: what a data set holds.
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -60,9 +59,7 @@ void look_at(const Sweep& sweep, Survey& survey) {
   for (std::size_t i = 0; i < n; ++i) {
     const bool finite = sweep.points[i].allFinite();
     survey.not_finite += finite ? 0 : 1;
-    if (finite && i % stride == 0) {
-      survey.ranges.push_back(sweep.points[i].cast<double>().norm());
-    }
+    if (finite && i % stride == 0) survey.ranges.push_back(sweep.points[i].cast<double>().norm());
   }
   if (!sweep.times_s.empty()) {
     const auto [begin, end] = std::minmax_element(sweep.times_s.begin(), sweep.times_s.end());
@@ -70,9 +67,7 @@ void look_at(const Sweep& sweep, Survey& survey) {
     survey.times_end = survey.timed ? std::max(survey.times_end, *end) : *end;
     survey.timed = true;
   }
-  for (const std::uint16_t ring : sweep.rings) {
-    survey.rings = std::max(survey.rings, static_cast<int>(ring) + 1);
-  }
+  for (const std::uint16_t ring : sweep.rings) survey.rings = std::max(survey.rings, static_cast<int>(ring) + 1);
   survey.intensity = survey.intensity || !sweep.intensities.empty();
 }
 
@@ -89,9 +84,7 @@ Survey survey_of(ScanSource& source, bool all) {
 }
 
 nlohmann::json range_percentiles(std::vector<double> ranges) {
-  if (ranges.empty()) {
-    return nullptr;
-  }
+  if (ranges.empty()) return nullptr;
   std::sort(ranges.begin(), ranges.end());
   return {{"p5", percentile(ranges, 0.05)},
           {"median", percentile(ranges, 0.5)},
@@ -101,9 +94,7 @@ nlohmann::json range_percentiles(std::vector<double> ranges) {
 
 nlohmann::json stamps_json(const Survey& survey, const SourceInfo& info, bool complete) {
   nlohmann::json json = {{"period_s", info.period_s}, {"assumed", info.stamps_assumed}};
-  if (survey.stamps.empty()) {
-    return json;
-  }
+  if (survey.stamps.empty()) return json;
   json["begin_s"] = format_stamp(survey.stamps.front());
   json["span_s"] = static_cast<double>(survey.stamps.back() - survey.stamps.front()) * 1e-9;
   if (complete) {
@@ -116,7 +107,7 @@ nlohmann::json stamps_json(const Survey& survey, const SourceInfo& info, bool co
 
 nlohmann::json truth_json(const std::string& data) {
   try {
-    const auto truth = read_ground_truth(data, TruthInstant::kMid);
+    const auto truth = read_ground_truth(data, PoseInstant::kMid);
     return truth ? nlohmann::json{{"file", truth->file.string()},
                                   {"poses", truth->T_world_lidar.size()},
                                   {"instant", truth->instant}}
@@ -144,16 +135,20 @@ std::optional<nlohmann::json> topics_to_choose(const InfoFlags& flags) {
   return nlohmann::json{{"data", flags.data}, {"kind", "recording"}, {"topics", list}};
 }
 
+std::string word(const nlohmann::json& value) { return value.get<std::string>(); }
+double real(const nlohmann::json& value) { return value.get<double>(); }
+std::size_t count(const nlohmann::json& value) { return value.get<std::size_t>(); }
+
 std::string topics_as_text(const nlohmann::json& j) {
-  const auto data = j["data"].get<std::string>();
+  const auto data = word(j["data"]);
   std::string text =
       fmt::format("{}: recording with several topics of scans; --topic chooses one\n\n{:<32} {:<32} {:>8}  {}\n", data,
                   "topic", "type", "messages", "frame");
   std::string runs;
   for (const auto& topic : j["topics"]) {
-    const auto name = topic["name"].get<std::string>();
-    const auto frame = topic["frame_id"].get<std::string>();
-    text += fmt::format("{:<32} {:<32} {:>8}  {}\n", name, topic["type"].get<std::string>(),
+    const auto name = word(topic["name"]);
+    const auto frame = word(topic["frame_id"]);
+    text += fmt::format("{:<32} {:<32} {:>8}  {}\n", name, word(topic["type"]),
                         topic["messages"].is_null() ? "?" : topic["messages"].dump(), frame.empty() ? "–" : frame);
     if (!topic["scans"].get<bool>()) continue;
     runs += fmt::format("{}rilo run {} --topic {} --out results\n",
@@ -197,7 +192,7 @@ nlohmann::json describe(const InfoFlags& flags, ScanSource& source) {
 
 /// What to run next. Whether points without times are raw cannot be seen.
 std::string advice(const nlohmann::json& j) {
-  const std::string run = "rilo run " + shell_quoted(j["data"].get<std::string>()) + " --out results";
+  const std::string run = "rilo run " + shell_quoted(word(j["data"])) + " --out results";
   if (j["point_times"].contains("begin_s")) return "to run it     " + run + "\n";
   return "to run it     " + run + " --point-times azimuth   (raw points of a spinning sensor)\n" + "              " +
          run + " --point-times none      (points that are motion-compensated)\n";
@@ -205,38 +200,32 @@ std::string advice(const nlohmann::json& j) {
 
 std::string as_text(const nlohmann::json& j) {
   std::string text =
-      fmt::format("{}: {}, {} sweeps of {}\n", j["data"].get<std::string>(), j["kind"].get<std::string>(),
-                  j["sweeps"].get<std::size_t>(), j["format"].get<std::string>());
-  if (!j["topic"].get<std::string>().empty()) {
-    text +=
-        fmt::format("topic         {}, frame {}\n", j["topic"].get<std::string>(), j["frame_id"].get<std::string>());
+      fmt::format("{}: {}, {} sweeps of {}\n", word(j["data"]), word(j["kind"]), count(j["sweeps"]), word(j["format"]));
+  if (!word(j["topic"]).empty()) {
+    text += fmt::format("topic         {}, frame {}\n", word(j["topic"]), word(j["frame_id"]));
   }
   const auto& points = j["points"];
-  text += fmt::format("points        min {} mean {:.0f} max {}, {} not finite (of {} sweeps read)\n",
-                      points["min"].get<std::size_t>(), points["mean"].get<double>(), points["max"].get<std::size_t>(),
-                      points["not_finite"].get<std::size_t>(), j["sweeps_read"].get<std::size_t>());
+  text +=
+      fmt::format("points        min {} mean {:.0f} max {}, {} not finite (of {} sweeps read)\n", count(points["min"]),
+                  real(points["mean"]), count(points["max"]), count(points["not_finite"]), count(j["sweeps_read"]));
   if (!j["range_m"].is_null()) {
     const auto& range = j["range_m"];
-    text += fmt::format("range         5 % {:.1f} m, median {:.1f} m, 95 % {:.1f} m, max {:.1f} m\n",
-                        range["p5"].get<double>(), range["median"].get<double>(), range["p95"].get<double>(),
-                        range["max"].get<double>());
+    text += fmt::format("range         5 % {:.1f} m, median {:.1f} m, 95 % {:.1f} m, max {:.1f} m\n", real(range["p5"]),
+                        real(range["median"]), real(range["p95"]), real(range["max"]));
   }
   const auto& stamps = j["stamps"];
-  text += fmt::format("stamps        every {:.4f} s ({:.2f} Hz){}", stamps["period_s"].get<double>(),
-                      1.0 / stamps["period_s"].get<double>(),
-                      stamps["assumed"].get<bool>() ? " (assumed: the data has none)" : "");
+  text +=
+      fmt::format("stamps        every {:.4f} s ({:.2f} Hz){}", real(stamps["period_s"]),
+                  1.0 / real(stamps["period_s"]), stamps["assumed"].get<bool>() ? " (assumed: the data has none)" : "");
   if (stamps.contains("span_s")) {
-    text += fmt::format(", from {} s on for {:.1f} s", stamps["begin_s"].get<std::string>(),
-                        stamps["span_s"].get<double>());
+    text += fmt::format(", from {} s on for {:.1f} s", word(stamps["begin_s"]), real(stamps["span_s"]));
   }
   if (stamps.contains("gaps")) {
-    text += fmt::format(", {} gaps, {} not increasing", stamps["gaps"].get<std::size_t>(),
-                        stamps["not_increasing"].get<std::size_t>());
+    text += fmt::format(", {} gaps, {} not increasing", count(stamps["gaps"]), count(stamps["not_increasing"]));
   }
-  text += "\npoint times   " + j["point_times"]["source"].get<std::string>();
+  text += "\npoint times   " + word(j["point_times"]["source"]);
   if (j["point_times"].contains("begin_s")) {
-    text += fmt::format(", {:.4f} … {:.4f} s", j["point_times"]["begin_s"].get<double>(),
-                        j["point_times"]["end_s"].get<double>());
+    text += fmt::format(", {:.4f} … {:.4f} s", real(j["point_times"]["begin_s"]), real(j["point_times"]["end_s"]));
   }
   const int rings = j["rings"].get<int>();
   text += fmt::format("\nfields        intensity: {}; ring: {}\n", j["intensity"].get<bool>() ? "yes" : "no",
@@ -246,14 +235,12 @@ std::string as_text(const nlohmann::json& j) {
   if (truth.is_null()) {
     text += "ground truth  none\n";
   } else if (truth.contains("error")) {
-    text += "ground truth  cannot be read: " + truth["error"].get<std::string>() + "\n";
+    text += "ground truth  cannot be read: " + word(truth["error"]) + "\n";
   } else {
-    text += fmt::format("ground truth  {} ({} poses, {})\n", truth["file"].get<std::string>(),
-                        truth["poses"].get<std::size_t>(), truth["instant"].get<std::string>());
+    text += fmt::format("ground truth  {} ({} poses, {})\n", word(truth["file"]), count(truth["poses"]),
+                        word(truth["instant"]));
   }
-  for (const auto& warning : j["warnings"]) {
-    text += "warning       " + warning.get<std::string>() + "\n";
-  }
+  for (const auto& warning : j["warnings"]) text += "warning       " + word(warning) + "\n";
   return text + advice(j);
 }
 

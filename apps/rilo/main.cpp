@@ -8,7 +8,6 @@
 #include "console/failure.hpp"
 #include "console/text.hpp"
 #include "console/version.hpp"
-#include "describe_command.hpp"
 #include "usage_error.hpp"
 
 namespace {

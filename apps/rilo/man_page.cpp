@@ -1,6 +1,7 @@
-#include "man_page.hpp"
-
+// The manual page.
 #include <fmt/format.h>
+
+#include "command_tree.hpp"
 
 namespace rilo::cli {
 
@@ -24,9 +25,8 @@ std::string roff(const std::string& text) {
 
 std::string roff_value(const TreeOption& option) {
   if (option.value.empty()) return "";
-  std::string words;
-  for (const std::string& choice : option.choices) words += (words.empty() ? "" : "|") + choice;
-  return words.empty() ? " \\fI" + roff(option.value) + "\\fR" : " " + roff(words);
+  if (option.choices.empty()) return " \\fI" + roff(option.value) + "\\fR";
+  return " " + roff(fmt::format("{}", fmt::join(option.choices, "|")));
 }
 
 std::string option_entry(const TreeOption& option, bool positional) {

@@ -1,8 +1,6 @@
 // rilo quality: how sharp the map of a trajectory is; needs no ground truth.
-#include <algorithm>
 #include <cstdint>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -17,6 +15,7 @@
 #include "results/sweep_poses.hpp"
 #include "rilo/evaluation/map_quality.hpp"
 #include "rilo/io/scan_source.hpp"
+#include "rilo/session/session.hpp"
 #include "source_flags.hpp"
 
 namespace rilo::cli {
@@ -58,10 +57,7 @@ QualityRun measure(const QualityFlags& flags) {
   MapQualityMeter meter(flags.config);
   const auto source = open_scan_source(flags.data, flags.source.options);
   source->skip(flags.start);
-  std::optional<std::size_t> total = source->size();
-  if (total) *total -= std::min(*total, flags.start);
-  if (flags.count > 0) total = std::min(total.value_or(flags.count), flags.count);
-  Progress progress("rilo", total, flags.quiet);
+  Progress progress("rilo", sweeps_to_do(*source, flags.start, flags.count), flags.quiet);
   std::size_t read = 0;
   while ((flags.count == 0 || read < flags.count) && !poses.end(read)) {
     const std::optional<Sweep> sweep = source->next();
@@ -145,16 +141,6 @@ int quality(const QualityFlags& flags) {
   return kSuccess;
 }
 
-CLI::Option* add_number(CLI::App& command, const char* name, double& value, double least, double most,
-                        const char* help) {
-  return command.add_option(name, value, help)->check(number_within(least, most))->capture_default_str();
-}
-
-template <typename Count>
-CLI::Option* add_count(CLI::App& command, const char* name, Count& value, std::int64_t most, const char* help) {
-  return command.add_option(name, value, help)->check(whole_number(most))->capture_default_str();
-}
-
 void add_map_flags(CLI::App& command, MapQualityConfig& config) {
   constexpr std::int64_t kMany = 1'000'000'000;
   add_count(command, "--window", config.window_sweeps, kMany, "consecutive sweeps that make one map");
@@ -166,23 +152,21 @@ void add_map_flags(CLI::App& command, MapQualityConfig& config) {
   add_number(command, "--radius", config.radius_m, 1e-6, 1e3, "of the neighbourhood that a plane is fitted to (m)");
   add_count(command, "--points", config.points_per_sweep, kMany, "at most that many points per sweep, at random");
   add_count(command, "--samples", config.samples_per_window, kMany, "places of a map that are looked at");
-  add_count(command, "--seed", config.seed, std::numeric_limits<std::int64_t>::max(), "of the random choice");
+  add_count(command, "--seed", config.seed, kAnyCount, "of the random choice");
   add_count(command, "--threads", config.threads, 1024,
             "threads; 0: as many as the machine has; the result does not depend on it");
 }
 
 void add_flags(CLI::App& command, QualityFlags& flags) {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   command.add_option("DATA", flags.data, "folder or file with sweeps")->required()->check(path_given());
   command.add_option("POSES", flags.poses, "poses of the LiDAR, one per sweep")->required()->check(path_given());
-  add_count(command, "--start", flags.start, kMost,
+  add_count(command, "--start", flags.start, kAnyCount,
             "skip that many sweeps; by index, the next one has the first pose, as after run --start");
-  add_count(command, "--count", flags.count, kMost, "look at that many sweeps; 0: all");
-  command
-      .add_option_function<std::string>(
-          "--associate", [&flags](const std::string& text) { flags.pairing.pairing = parse_pairing(text); },
-          "pair poses with sweeps by index or by stamp. Default: auto, by stamp when POSES has stamps")
-      ->check(CLI::IsMember({"auto", "index", "stamp"}));
+  add_count(command, "--count", flags.count, kAnyCount, "look at that many sweeps; 0: all");
+  add_choice(
+      command, "--associate", [&flags](const std::string& text) { flags.pairing.pairing = parse_pairing(text); },
+      {"auto", "index", "stamp"},
+      "pair poses with sweeps by index or by stamp. Default: auto, by stamp when POSES has stamps");
   add_number(command, "--max-gap-s", flags.pairing.max_gap_s, 0, 1e6,
              "largest distance of a pose's stamp from the middle of its sweep");
   add_map_flags(command, flags.config);

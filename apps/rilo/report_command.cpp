@@ -1,14 +1,13 @@
 // rilo report: one page that compares runs and experiments.
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "bench/report_inputs.hpp"
 #include "bench/report_runs.hpp"
-#include "bench/saved_bench.hpp"
+#include "bench/saved_results.hpp"
 #include "checks.hpp"
 #include "command.hpp"
 #include "console/text.hpp"
@@ -45,10 +44,9 @@ struct ReportFlags {
 };
 
 void write_page(const std::string& file, const ReportPage& page) {
-  std::ostringstream html;
-  write_html_report(page, html);
+  const std::string html = html_report(page);
   try {
-    write_atomically(file, html.str());
+    write_atomically(file, html);
   } catch (const IoError& error) {
     throw RunError(RunErrorKind::kCannotWrite, error.what());
   }
@@ -93,14 +91,11 @@ void add_flags(CLI::App& command, ReportFlags& flags) {
   command.add_option("--gt", flags.truths, "[SEQUENCE=]PATH of true poses, a file or a data folder; repeatable")
       ->allow_extra_args(false)
       ->check(path_given());
-  command
-      .add_option_function<std::string>(
-          "--pose-frame", [&flags](const std::string& text) { flags.poses.camera_frame = text == "camera"; },
-          "frame of given pose files: lidar, or camera (KITTI; needs Tr of the data). Default: lidar")
-      ->check(CLI::IsMember({"lidar", "camera"}));
-  command.add_option("--max-gap-s", flags.poses.max_gap_s, "largest distance of two stamps that belong together")
-      ->check(number_within(0, 1e6))
-      ->capture_default_str();
+  add_choice(
+      command, "--pose-frame", [&flags](const std::string& text) { flags.poses.camera_frame = text == "camera"; },
+      {"lidar", "camera"}, "frame of given pose files: lidar, or camera (KITTI; needs Tr of the data). Default: lidar");
+  add_number(command, "--max-gap-s", flags.poses.max_gap_s, 0, 1e6,
+             "largest distance of two stamps that belong together");
 }
 
 }  // namespace

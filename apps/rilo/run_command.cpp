@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <thread>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,17 +13,15 @@
 #include "console/folder_lock.hpp"
 #include "console/interrupt.hpp"
 #include "console/text.hpp"
+#include "io/text.hpp"
 #include "results/metrics_json.hpp"
-#include "results/partial_poses.hpp"
 #include "results/run_metrics.hpp"
 #include "results/run_observers.hpp"
 #include "results/run_outputs.hpp"
 #include "results/run_record.hpp"
-#include "results/run_summary.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/session/session_observer.hpp"
-#include "run_flags.hpp"
 #include "source_flags.hpp"
 #include "view_flags.hpp"
 
@@ -33,6 +30,17 @@ namespace rilo::cli {
 namespace {
 
 constexpr double kShareOfIdleProcessor = 0.5;
+
+struct RunFlags : RunRequest, OutputRequest {
+  std::string config_file;
+  std::vector<std::string> settings;
+  int threads = -1;  // -1: as configured
+  bool json = false;
+  bool no_truth = false;
+  bool real_time = false;  // no faster than recorded
+  std::string view;        // --view: its port or "auto"; empty: no viewer
+  ViewOptions view_options;
+};
 
 constexpr const char* kRunFooter =
     R"(DATA is a recording (ROS 1 bags, rosbag2, MCAP), a pcap of a Velodyne or an Ouster, a KITTI sequence or raw drive, a
@@ -79,8 +87,11 @@ std::unique_ptr<LiveView> open_view(const RunFlags& flags, const ScanSource& sou
   if (flags.view.empty()) return nullptr;
   ViewOptions options = flags.view_options;
   if (flags.view != "auto") {
-    options.port = parse_port(flags.view);
-    if (!options.port) throw RunError(RunErrorKind::kUsage, "--view=" + flags.view + ": expected a port, 0 … 65535");
+    const auto port = detail::parse_unsigned(flags.view);
+    if (!port || *port > 65535) {
+      throw RunError(RunErrorKind::kUsage, "--view=" + flags.view + ": expected a port, 0 … 65535");
+    }
+    options.port = static_cast<std::uint16_t>(*port);
   }
   // A processor that the odometry leaves alone may be used: half of it, there is reading and the system as well.
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
@@ -113,9 +124,7 @@ void observe_and_run(const RunFlags& flags, Session& session, PartialPoses& part
 
 /// A recording is read faster than the viewer takes its points: those that it missed.
 void show_the_rest(const RunFlags& flags, const RunRecord& run, LiveView& view) {
-  if (!flags.quiet) {
-    std::cerr << "rilo: done; the viewer stays at " << view.viewer().url() << " until Ctrl-C\n";
-  }
+  if (!flags.quiet) std::cerr << "rilo: done; the viewer stays at " << view.viewer().url() << " until Ctrl-C\n";
   try {
     const auto source = source_of(flags)();
     source->skip(flags.start);
@@ -173,19 +182,15 @@ void add_flags(CLI::App& command, RunFlags& flags) {
       .add_option("--map", flags.map,
                   "write the accumulated map (.ply or .pcd), one point per voxel; a bare name goes into --out")
       ->check(path_given());
-  command.add_option("--map-voxel", flags.map_voxel_m, "edge of the map's voxels, m")
-      ->check(number_within(0.001, 100))
-      ->capture_default_str();
+  add_number(command, "--map-voxel", flags.map_voxel_m, 0.001, 100, "edge of the map's voxels, m");
   command.add_flag("--map-normals", flags.map_normals, "normals in the map, towards where the surface was seen from");
   command.add_flag("--map-intensity", flags.map_intensity, "intensities in the map");
   command.add_option("--odom-frame", flags.odom_frame, "odometry frame in trajectory.mcap and trajectory.bag")
       ->default_str("odom");
   command.add_option("--lidar-frame", flags.lidar_frame, "sensor frame in trajectory.mcap and trajectory.bag")
       ->default_str("the data's frame_id, else lidar");
-  command.add_option("--start", flags.start, "skip that many sweeps")->check(whole_number())->capture_default_str();
-  command.add_option("--count", flags.count, "run that many sweeps; 0: all")
-      ->check(whole_number())
-      ->capture_default_str();
+  add_count(command, "--start", flags.start, kAnyCount, "skip that many sweeps");
+  add_count(command, "--count", flags.count, kAnyCount, "run that many sweeps; 0: all");
   command
       .add_option("--threads", flags.threads,
                   "threads; 0: as many as the machine has; the results do not depend on it. Default: as configured")

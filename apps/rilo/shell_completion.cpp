@@ -1,18 +1,14 @@
-#include "shell_completion.hpp"
-
+// Completion of the command line for bash, zsh and fish.
 #include <fmt/format.h>
 
+#include "command_tree.hpp"
 #include "console/text.hpp"
 
 namespace rilo::cli {
 
 namespace {
 
-std::string words_joined(const std::vector<std::string>& words, const char* between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
+std::string in_a_row(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
 std::vector<std::string> names_of(const std::vector<TreeCommand>& commands) {
   std::vector<std::string> names;
@@ -46,7 +42,7 @@ std::string zsh_option(const TreeOption& option) {
     std::string spec = (option.repeatable ? "*" : "") + name + "[" + zsh_plain(option.help) + "]";
     if (!option.value.empty()) {
       spec += ":" + zsh_plain(option.value) + ":" +
-              (option.choices.empty() ? "_files" : "(" + words_joined(option.choices, " ") + ")");
+              (option.choices.empty() ? "_files" : "(" + in_a_row(option.choices) + ")");
     }
     lines += " \\\n        " + shell_quoted(spec);
   }
@@ -61,15 +57,14 @@ std::string bash_completion(const TreeCommand& tree) {
   std::string choices;
   for (const TreeCommand* command : flattened(tree)) {
     below += fmt::format("    {}) commands={} ;;\n", shell_quoted(command->path),
-                         shell_quoted(words_joined(names_of(command->commands), " ")));
+                         shell_quoted(in_a_row(names_of(command->commands))));
     options += fmt::format("    {}) options={} ;;\n", shell_quoted(command->path),
-                           shell_quoted(words_joined(option_names(*command), " ")));
+                           shell_quoted(in_a_row(option_names(*command))));
     for (const TreeOption& option : command->options) {
       for (const std::string& name : option.names) {
         if (option.choices.empty()) continue;
-        choices +=
-            fmt::format("    {}) COMPREPLY=($(compgen -W {} -- \"$word\")); return ;;\n",
-                        shell_quoted(command->path + " " + name), shell_quoted(words_joined(option.choices, " ")));
+        choices += fmt::format("    {}) COMPREPLY=($(compgen -W {} -- \"$word\")); return ;;\n",
+                               shell_quoted(command->path + " " + name), shell_quoted(in_a_row(option.choices)));
       }
     }
   }
@@ -104,21 +99,21 @@ std::string zsh_completion(const TreeCommand& tree) {
     std::string specs;
     for (const TreeOption& option : command->options) specs += zsh_option(option);
     if (!command->commands.empty())
-      specs += " \\\n        " + shell_quoted("*: :(" + words_joined(names_of(command->commands), " ") + ")");
+      specs += " \\\n        " + shell_quoted("*: :(" + in_a_row(names_of(command->commands)) + ")");
     else
       specs += " \\\n        '*:file:_files'";
     cases += fmt::format("    {})\n      _arguments -S{} ;;\n", shell_quoted(command->path), specs);
   }
-  std::string known;
+  std::vector<std::string> known;
   for (const TreeCommand* command : flattened(tree)) {
-    if (command != &tree) known += (known.empty() ? "" : "|") + shell_quoted(command->path);
+    if (command != &tree) known.push_back(shell_quoted(command->path));
   }
   return "#compdef rilo\n# Completion of rilo for zsh; written by: rilo completion zsh\n"
          "_rilo() {\n"
          "  local path_=rilo i\n"
          "  for ((i = 2; i < CURRENT; i++)); do\n"
          "    case \"$path_ ${words[i]}\" in\n      " +
-         known +
+         fmt::format("{}", fmt::join(known, "|")) +
          ") path_=\"$path_ ${words[i]}\" ;;\n"
          "    esac\n"
          "  done\n"
@@ -128,7 +123,7 @@ std::string zsh_completion(const TreeCommand& tree) {
 
 std::string fish_completion(const TreeCommand& tree) {
   std::string text = "# Completion of rilo for fish; written by: rilo completion fish\n";
-  const std::string all = words_joined(names_of(tree.commands), " ");
+  const std::string all = in_a_row(names_of(tree.commands));
   for (const TreeCommand& command : tree.commands) {
     text += fmt::format("complete -c rilo -n 'not __fish_seen_subcommand_from {}' -f -a {} -d {}\n", all, command.name,
                         fish_quoted(command.help));
@@ -139,7 +134,7 @@ std::string fish_completion(const TreeCommand& tree) {
           text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
         }
         if (!option.value.empty())
-          text += option.choices.empty() ? " -r" : " -x -a " + fish_quoted(words_joined(option.choices, " "));
+          text += option.choices.empty() ? " -r" : " -x -a " + fish_quoted(in_a_row(option.choices));
         text += " -d " + fish_quoted(option.help) + "\n";
       }
     }

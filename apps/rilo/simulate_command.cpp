@@ -1,7 +1,5 @@
 // rilo simulate: a synthetic drive as a KITTI-style folder.
-#include <cstdint>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -69,29 +67,23 @@ int simulate(const SimulateFlags& flags) {
 }
 
 void add_drive_flags(CLI::App& command, DriveConfig& drive) {
-  command
-      .add_option_function<std::string>(
-          "--sensor", [&drive](const std::string& text) { drive.sensor = parse_sensor_kind(text).value(); },
-          "hdl64, vlp16 or os1-64. Default: hdl64")
-      ->check(CLI::IsMember({"hdl64", "vlp16", "os1-64"}));
-  const auto whole = [&](const char* name, auto& member, std::int64_t most, const char* help) {
-    command.add_option(name, member, help)->check(whole_number(most))->capture_default_str();
-  };
-  const auto real = [&](const char* name, double& member, double least, double most, const char* help) {
-    command.add_option(name, member, help)->check(number_within(least, most))->capture_default_str();
-  };
-  whole("--sweeps", drive.sweeps, 20000, "number of sweeps, 10 a second; 0: one lap and a little more; at most 20000");
-  whole("--seed", drive.seed, std::numeric_limits<std::int64_t>::max(), "town, traffic and noise");
-  real("--start", drive.start_s, 0, 2000, "s into the drive, 0 … 2000 (0: standing)");
-  real("--speed", drive.speed_mps, 2, 15, "m/s on straight streets, 2 … 15");
-  real("--noise", drive.noise_m, 0, 0.5, "m, 0 … 0.5: standard deviation of a range");
-  real("--dropout", drive.dropout, 0, 0.9, "share of returns that are lost, 0 … 0.9");
-  real("--max-range", drive.max_range_m, 0, 1000, "m; 0: the sensor's own");
-  real("--elevation-bias", drive.elevation_bias_deg, -2, 2, "degrees, -2 … 2: true minus reported elevation");
-  whole("--moving-cars", drive.moving_cars, 12, "0 … 12");
-  real("--parked-cars", drive.parked_cars, 0, 1, "share of the parking places that are taken, 0 … 1");
-  real("--trees", drive.trees, 0, 1, "share of the places for trees that have one, 0 … 1");
-  whole("--threads", drive.threads, 1024, "0: as many as the machine has");
+  add_choice(
+      command, "--sensor", [&drive](const std::string& text) { drive.sensor = parse_sensor_kind(text).value(); },
+      {"hdl64", "vlp16", "os1-64"}, "hdl64, vlp16 or os1-64. Default: hdl64");
+  add_count(command, "--sweeps", drive.sweeps, 20000,
+            "number of sweeps, 10 a second; 0: one lap and a little more; at most 20000");
+  add_count(command, "--seed", drive.seed, kAnyCount, "town, traffic and noise");
+  add_number(command, "--start", drive.start_s, 0, 2000, "s into the drive, 0 … 2000 (0: standing)");
+  add_number(command, "--speed", drive.speed_mps, 2, 15, "m/s on straight streets, 2 … 15");
+  add_number(command, "--noise", drive.noise_m, 0, 0.5, "m, 0 … 0.5: standard deviation of a range");
+  add_number(command, "--dropout", drive.dropout, 0, 0.9, "share of returns that are lost, 0 … 0.9");
+  add_number(command, "--max-range", drive.max_range_m, 0, 1000, "m; 0: the sensor's own");
+  add_number(command, "--elevation-bias", drive.elevation_bias_deg, -2, 2,
+             "degrees, -2 … 2: true minus reported elevation");
+  add_count(command, "--moving-cars", drive.moving_cars, 12, "0 … 12");
+  add_number(command, "--parked-cars", drive.parked_cars, 0, 1, "share of the parking places that are taken, 0 … 1");
+  add_number(command, "--trees", drive.trees, 0, 1, "share of the places for trees that have one, 0 … 1");
+  add_count(command, "--threads", drive.threads, 1024, "0: as many as the machine has");
 }
 
 }  // namespace

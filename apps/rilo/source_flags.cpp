@@ -8,13 +8,6 @@ namespace rilo::cli {
 
 namespace {
 
-// An option with a fixed set of words.
-template <typename Take>
-CLI::Option* add_choice(CLI::App& command, const char* name, const Take& take, std::vector<std::string> words,
-                        const char* help) {
-  return command.add_option_function<std::string>(name, take, help)->check(CLI::IsMember(std::move(words)));
-}
-
 void add_time_flags(CLI::App& command, SourceRequest& flags) {
   SourceOptions& options = flags.options;
   add_choice(
@@ -47,24 +40,18 @@ void add_time_flags(CLI::App& command, SourceRequest& flags) {
 void add_source_flags(CLI::App& command, SourceRequest& flags) {
   SourceOptions& options = flags.options;
   command.add_option("--topic", options.topic, "topic of a recording that has several with scans");
-  command.add_option(
-      "--sensor-file", options.sensor_file,
-      "what packets need: an Ouster's metadata (JSON; by default the one in or beside the recording) or an "
-      "HDL-64E's calibration (YAML of velodyne_pointcloud)");
+  command.add_option("--sensor-file", options.sensor_file,
+                     "what packets need: an Ouster's metadata (JSON; by default the one in or beside the recording) or "
+                     "an HDL-64E's calibration (YAML of velodyne_pointcloud)");
   command
       .add_option("--bin-fields", options.bin_fields,
                   "columns of a .bin record, float32 each: x,y,z and intensity, time, ring; _ is ignored")
       ->capture_default_str();
   add_time_flags(command, flags);
-  command
-      .add_option("--elevation-correction", options.elevation_correction_deg,
-                  "degrees added to every point's elevation angle. KITTI's HDL-64E needs 0.205. Off by default; stated "
-                  "in every result")
-      ->check(number_within(-10, 10))
-      ->capture_default_str();
-  command.add_option("--rate", options.assumed_rate_hz, "sweeps per second of data without stamps")
-      ->check(number_within(0.001, 1000))
-      ->capture_default_str();
+  add_number(command, "--elevation-correction", options.elevation_correction_deg, -10, 10,
+             "degrees added to every point's elevation angle. KITTI's HDL-64E needs 0.205. Off by default; stated in "
+             "every result");
+  add_number(command, "--rate", options.assumed_rate_hz, 0.001, 1000, "sweeps per second of data without stamps");
   command.add_flag_callback(
       "--skip-bad-sweeps", [&options] { options.on_bad_sweep = OnBadSweep::kSkip; },
       "skip sweeps that cannot be read (counted in the results) instead of stopping");

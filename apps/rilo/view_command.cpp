@@ -14,7 +14,6 @@
 #include "console/text.hpp"
 #include "results/live_view.hpp"
 #include "results/saved_run.hpp"
-#include "results/view_recording.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/scan_source.hpp"
@@ -56,9 +55,7 @@ SourceOptions source_options(const ViewFlags& flags, const RunMetrics& metrics) 
   const std::string& times = metrics.point_times;
   if (options.point_times == PointTimes::kAuto && times.starts_with("azimuth")) {
     options.point_times = PointTimes::kAzimuth;
-    if (times.find("counter-clockwise") != std::string::npos) {
-      options.spin_direction = SpinDirection::kCounterClockwise;
-    }
+    if (times.find("counter-clockwise") != std::string::npos) options.spin_direction = SpinDirection::kCounterClockwise;
   }
   return options;
 }

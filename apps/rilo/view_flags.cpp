@@ -1,6 +1,5 @@
 #include "view_flags.hpp"
 
-#include <charconv>
 #include <chrono>
 #include <thread>
 
@@ -23,13 +22,6 @@ void add_address_flag(CLI::App& command, const std::string& name, ViewOptions& o
                   "machines, unencrypted: the address printed then holds a token")
       ->check(path_given())
       ->capture_default_str();
-}
-
-std::optional<std::uint16_t> parse_port(const std::string& text) {
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return port;
 }
 
 }  // namespace rilo::cli

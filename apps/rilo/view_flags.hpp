@@ -1,8 +1,6 @@
 // Command-line options of the viewer, shared by run and view.
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <string>
 
 #include "cli11_app.hpp"
@@ -15,8 +13,5 @@ void wait_for_signal();
 
 /// What the rest of the options of a viewer are called, `--view-address` or `--address`.
 void add_address_flag(CLI::App& command, const std::string& name, ViewOptions& options);
-
-/// A port on the command line; anything else is rejected.
-std::optional<std::uint16_t> parse_port(const std::string& text);
 
 }  // namespace rilo::cli

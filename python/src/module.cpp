@@ -1,4 +1,3 @@
-#include <exception>
 
 #include "modules.hpp"
 #include "rilo/config/config_file.hpp"

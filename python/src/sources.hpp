@@ -1,7 +1,6 @@
 // Sweeps as Python sees them, and how data are opened.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 
 #include "rilo/cloud/sweep.hpp"

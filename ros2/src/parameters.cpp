@@ -2,7 +2,6 @@
 
 #include <rcl_interfaces/msg/parameter_descriptor.hpp>
 #include <stdexcept>
-#include <type_traits>
 
 namespace rilo::ros2 {
 namespace {

@@ -1,7 +1,5 @@
 #include "bench/cell.hpp"
 
-#include <utility>
-
 #include "console/failure.hpp"
 #include "results/pose_files.hpp"
 #include "results/run_metrics.hpp"

@@ -1,11 +1,11 @@
 #include "bench/content_hash.hpp"
 
-#include <algorithm>
 #include <array>
 #include <fstream>
 #include <link.h>
 #include <map>
 #include <openssl/evp.h>
+#include <set>
 #include <stdexcept>
 #include <sys/stat.h>
 #include <system_error>
@@ -23,13 +23,13 @@ constexpr int kDeepestFolder = 4;
 constexpr std::uintmax_t kLargestText = std::uintmax_t{16} << 20;
 
 bool is_text(const fs::path& file) {
-  constexpr std::array kTexts = {".txt", ".yaml", ".yml", ".json", ".csv"};
-  return std::any_of(kTexts.begin(), kTexts.end(), [&](const char* text) { return file.extension() == text; });
+  static const std::set<fs::path> kTexts = {".txt", ".yaml", ".yml", ".json", ".csv"};
+  return kTexts.contains(file.extension());
 }
 
 bool is_data(const fs::path& file) {
-  constexpr std::array kData = {".bin", ".pcd", ".ply", ".bag", ".db3", ".mcap", ".pcap"};
-  return is_text(file) || std::any_of(kData.begin(), kData.end(), [&](const char* e) { return file.extension() == e; });
+  static const std::set<fs::path> kData = {".bin", ".pcd", ".ply", ".bag", ".db3", ".mcap", ".pcap"};
+  return is_text(file) || kData.contains(file.extension());
 }
 
 // A line that changes when the file does.
@@ -80,17 +80,11 @@ void list_neighbours(const fs::path& data, Lines& lines) {
 
 }  // namespace
 
-struct ContentHash::State {
-  EVP_MD_CTX* context = EVP_MD_CTX_new();
-};
-
-ContentHash::ContentHash() : state_(std::make_unique<State>()) {
-  if (EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr) != 1) throw std::runtime_error("no SHA-256");
+ContentHash::ContentHash() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+  if (EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) throw std::runtime_error("no SHA-256");
 }
 
-ContentHash::~ContentHash() { EVP_MD_CTX_free(state_->context); }
-
-void ContentHash::add(std::string_view bytes) { EVP_DigestUpdate(state_->context, bytes.data(), bytes.size()); }
+void ContentHash::add(std::string_view bytes) { EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()); }
 
 bool ContentHash::add_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -105,10 +99,8 @@ bool ContentHash::add_file(const fs::path& file) {
 std::string ContentHash::hex() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned size = 0;
-  EVP_DigestFinal_ex(state_->context, digest.data(), &size);
-  std::string text;
-  for (unsigned i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
-  return text;
+  EVP_DigestFinal_ex(context_.get(), digest.data(), &size);
+  return fmt::format("{:02x}", fmt::join(digest.begin(), digest.begin() + size, ""));
 }
 
 std::string hash_of(std::string_view bytes) {

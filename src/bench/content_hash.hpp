@@ -6,15 +6,14 @@
 #include <string>
 #include <string_view>
 
+struct evp_md_ctx_st;  // of OpenSSL
+
 namespace rilo {
 
 /// SHA-256 of bytes that come in pieces.
 class ContentHash {
  public:
   ContentHash();
-  ~ContentHash();
-  ContentHash(const ContentHash&) = delete;
-  ContentHash& operator=(const ContentHash&) = delete;
 
   void add(std::string_view bytes);
   /// The content of a file. False when it cannot be read.
@@ -23,8 +22,7 @@ class ContentHash {
   std::string hex();
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
 };
 
 std::string hash_of(std::string_view bytes);

@@ -42,6 +42,11 @@ struct BenchSummary {
 /// In the order in which the configurations first occur.
 std::vector<BenchSummary> summaries(const std::vector<BenchCell>& cells);
 
+/// One cell for all repeats of a configuration (or peer) on a sequence, in the order of their first ones. Times and
+/// memory are the medians of the repeats; everything else is of the first, as nothing else may differ. It failed when
+/// one of them did, or when they differ in what they found out.
+std::vector<BenchCell> combined(const std::vector<BenchCell>& cells);
+
 struct BenchRecord {
   std::string command_line;
   std::vector<BenchCell> cells;

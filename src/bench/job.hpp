@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,10 @@ std::vector<BenchJob> jobs_of(const BenchPlan& plan);
 
 /// Jobs that were made without repeats, `repeats` times each.
 std::vector<BenchJob> repeated(const std::vector<BenchJob>& jobs, std::size_t repeats);
+
+/// Fills in descriptions and keys: data, truth, peers, how the data are read, configuration, program. Neither names nor
+/// the number of threads count, on which no result depends. `results`: the folder that the benchmark writes to, which
+/// may lie within the data.
+void describe(std::vector<BenchJob>& jobs, const BenchRunOptions& flags, const std::filesystem::path& results);
 
 }  // namespace rilo

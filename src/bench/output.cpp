@@ -1,9 +1,7 @@
 #include "bench/output.hpp"
 
-#include "bench/baseline.hpp"
 #include "bench/paired.hpp"
 #include "bench/paper.hpp"
-#include "bench/repeats.hpp"
 #include "console/text.hpp"
 #include "io/atomic_file.hpp"
 #include "rilo/io/io_error.hpp"

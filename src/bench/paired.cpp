@@ -89,8 +89,7 @@ TitledTable comparison_table(const std::vector<BenchComparison>& comparisons) {
   result.note = fmt::format(
       "Ratios below 1: the configuration drifts less. mean ratio: geometric, over the drives that neither lost; with "
       "lost: over all that both have a figure of. Lost: t_rel above {} % or none; that drive counts for the other. "
-      "sign "
-      "test: p of ahead and behind, two-sided, exact. best peer: the best one of each drive, chosen afterwards.",
+      "sign test: p of ahead and behind, two-sided, exact. best peer: the best one of each drive, chosen afterwards.",
       kLostAbovePct);
   for (const std::string& line : lost) result.note += line;
   return result;

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <map>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -215,10 +214,9 @@ std::vector<BenchJob> kitti_jobs(const fs::path& root, const BenchConfiguration&
     jobs.push_back(job);
   }
   if (jobs.empty()) {
-    throw RunError(RunErrorKind::kBadData,
-                   root.string() +
-                       ": no sequence found; expected sequences/00/velodyne … sequences/10/velodyne as in "
-                       "the KITTI odometry data set");
+    throw RunError(RunErrorKind::kBadData, root.string() +
+                                               ": no sequence found; expected sequences/00/velodyne … "
+                                               "sequences/10/velodyne as in the KITTI odometry data set");
   }
   return jobs;
 }
@@ -227,18 +225,16 @@ std::vector<TitledTable> kitti_tables(const std::vector<BenchCell>& cells, Measu
   const std::vector<OurRow> ours = our_rows(cells);
   const std::string protocol =
       "Ours: 0° and 0.205° are the two protocols of the field, points as recorded and with KITTI's elevation "
-      "correction given, both without Rilo's own estimate (elevation.enabled=false); \"own estimate\" gets "
-      "no correction and estimates the elevation offset. The paper does not name its protocol.";
+      "correction given, both without Rilo's own estimate (elevation.enabled=false); \"own estimate\" gets no "
+      "correction and estimates the elevation offset. The paper does not name its protocol.";
   std::vector<TitledTable> tables = {
       {"Table I: APE on KITTI (m)", table_1(ours),
        "Columns of the paper as printed (its Fast-gicp RMSE of 00 and 01 contradict their means and deviations); "
-       "\"paper\" is "
-       "its own method. " +
+       "\"paper\" is its own method. " +
            protocol},
       {"Table II: time per sweep on KITTI (ms)", method_table(paper_table_2(), ours, kitti_sequences(), "ms_mean", 1),
        "The paper's times are of its own machine; rows and averages as printed (those of DLO and KISS-ICP do not "
-       "follow "
-       "from their rows: 27.9 and 26.7). Ours: mean of all sweeps, reading excluded."}};
+       "follow from their rows: 27.9 and 26.7). Ours: mean of all sweeps, reading excluded."}};
   if (measured == MeasuredColumns::kWithout) tables.pop_back();
   return tables;
 }
@@ -259,8 +255,8 @@ std::vector<BenchJob> m2dgr_jobs(const fs::path& root, const BenchConfiguration&
   if (jobs.empty()) {
     throw RunError(RunErrorKind::kBadData,
                    root.string() +
-                       ": no sequence found; expected folders NAME/ with sweeps (.pcd, .ply or .bin with stamps) "
-                       "and NAME.txt with the true poses (TUM form) beside each");
+                       ": no sequence found; expected folders NAME/ with sweeps (.pcd, .ply or .bin with stamps) and "
+                       "NAME.txt with the true poses (TUM form) beside each");
   }
   return jobs;
 }

@@ -8,6 +8,7 @@
 
 #include "bench/saved_results.hpp"
 #include "console/text.hpp"
+#include "io/file_bytes.hpp"
 #include "results/saved_run.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/session/session.hpp"
@@ -20,13 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExpectedResults =
     "a folder of rilo run (metrics.json, or poses_lidar.partial.txt), a folder, results.json or results.sqlite of rilo "
-    "bench, or a "
-    "pose file as NAME=FILE";
-
-bool exists(const std::string& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
+    "bench, or a pose file as NAME=FILE";
 
 struct NamedPath {
   std::string name;  // empty: none was given
@@ -35,7 +30,7 @@ struct NamedPath {
 
 NamedPath named_path(const std::string& word) {
   const std::size_t equals = word.find('=');
-  if (exists(word) || equals == std::string::npos) return {"", word};
+  if (detail::path_exists(word) || equals == std::string::npos) return {"", word};
   if (equals == 0 || equals + 1 == word.size()) {
     throw RunError(RunErrorKind::kUsage,
                    "\"" + word + "\": expected a name before and a path after the =. See: rilo report --help");
@@ -51,16 +46,14 @@ std::string contents(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, ignored)) names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   if (names.empty()) return "an empty folder";
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kShown, names.size()); ++i) text += (i == 0 ? "" : ", ") + names[i];
-  return fmt::format("a folder with {}{}", text,
-                     names.size() > kShown ? fmt::format(" and {} more", names.size() - kShown) : "");
+  const std::size_t more = names.size() - std::min(kShown, names.size());
+  names.resize(names.size() - more);
+  return fmt::format("a folder with {}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 std::optional<ReportInputKind> kind_of(const fs::path& path) {
-  std::error_code ignored;
   if (is_saved_results(path)) return ReportInputKind::kBench;
-  if (fs::is_regular_file(path, ignored)) return ReportInputKind::kPoses;
+  if (detail::is_file(path)) return ReportInputKind::kPoses;
   if (is_saved_run(path)) return ReportInputKind::kRun;
   return std::nullopt;
 }
@@ -74,10 +67,10 @@ ReportInput parse_report_input(const std::string& word) {
   const std::size_t slash = named.name.rfind('/');
   input.sequence = slash == std::string::npos ? "" : valid_utf8(named.name.substr(0, slash));
   input.name = valid_utf8(slash == std::string::npos ? named.name : named.name.substr(slash + 1));
-  if (!exists(named.path)) throw IoError({input.path, "", "nothing", kExpectedResults, "Check the path"});
+  if (!detail::path_exists(named.path)) throw IoError({input.path, "", "nothing", kExpectedResults, "Check the path"});
   const auto kind = kind_of(input.path);
   if (!kind) {
-    const bool data = exists((input.path / "velodyne").string());
+    const bool data = detail::path_exists(input.path / "velodyne");
     throw IoError({input.path, "", contents(input.path), kExpectedResults,
                    data ? "These are data: give them to rilo run --out first" : "Give the folder after --out"});
   }
@@ -92,7 +85,7 @@ ReportInput parse_report_input(const std::string& word) {
 
 ReportTruth parse_report_truth(const std::string& word) {
   const NamedPath named = named_path(word);
-  if (!exists(named.path)) {
+  if (!detail::path_exists(named.path)) {
     throw IoError({named.path, "", "nothing", "true poses: a file, or a data folder", "Check the path after --gt"});
   }
   return {valid_utf8(named.name), named.path};

@@ -25,6 +25,12 @@ bool same_data(const RunRecord& a, const RunRecord& b) {
   return a.data == b.data;
 }
 
+std::string names_of(const std::vector<ReportSequence>& sequences) {
+  std::vector<std::string> names;
+  for (const ReportSequence& sequence : sequences) names.push_back(sequence.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 class Grouping {
  public:
   void add(ReportEntry entry) {
@@ -42,10 +48,9 @@ class Grouping {
     for (ReportEntry& entry : waiting_) {
       if (sequences_.size() > 1) {
         throw RunError(RunErrorKind::kUsage,
-                       fmt::format("{} does not say which sequence it is of; expected SEQUENCE/{}={} with one "
-                                   "of: {}",
+                       fmt::format("{} does not say which sequence it is of; expected SEQUENCE/{}={} with one of: {}",
                                    entry.input.path.string(), entry.input.name.empty() ? "NAME" : entry.input.name,
-                                   entry.input.path.string(), names()));
+                                   entry.input.path.string(), names_of(sequences_)));
       }
       const std::string name = sequences_.empty() ? "" : sequences_.front().name;
       into(name, std::move(entry));
@@ -72,12 +77,6 @@ class Grouping {
     return name;
   }
 
-  std::string names() const {
-    std::string text;
-    for (const ReportSequence& sequence : sequences_) text += (text.empty() ? "" : ", ") + sequence.name;
-    return text;
-  }
-
   std::vector<ReportSequence> sequences_;
   std::vector<ReportEntry> waiting_;
 };
@@ -91,11 +90,9 @@ void set_truths(const std::vector<ReportTruth>& truths, std::vector<ReportSequen
       used = true;
     }
     if (used && (!truth.sequence.empty() || sequences.size() == 1)) continue;
-    std::string names;
-    for (const ReportSequence& sequence : sequences) names += (names.empty() ? "" : ", ") + sequence.name;
-    throw RunError(RunErrorKind::kUsage,
-                   fmt::format("--gt {}{}: expected SEQUENCE=FILE with one of: {}",
-                               truth.sequence.empty() ? "" : truth.sequence + "=", truth.path.string(), names));
+    throw RunError(RunErrorKind::kUsage, fmt::format("--gt {}{}: expected SEQUENCE=FILE with one of: {}",
+                                                     truth.sequence.empty() ? "" : truth.sequence + "=",
+                                                     truth.path.string(), names_of(sequences)));
   }
 }
 

@@ -127,7 +127,7 @@ PairedPeer on_their_own(const ReportSequence& sequence, const GivenPoses& given)
   if (sequence.truth.empty()) return {poses_of(poses.trajectory), {}, {"Truth", "none was given"}};
   PairingOptions pairing;
   pairing.max_gap_s = given.max_gap_s;
-  PairedPoses paired = pair_poses(read_truth(sequence.truth, TruthInstant::kMid), poses, pairing);
+  PairedPoses paired = pair_poses(read_truth(sequence.truth, PoseInstant::kMid), poses, pairing);
   return {std::move(paired.poses.estimate), std::move(paired.poses.truth), {"Protocol", paired.protocol}};
 }
 

@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include "bench/description.hpp"
 #include "bench/output.hpp"
 #include "bench/paired.hpp"
 #include "bench/peer_figures.hpp"
@@ -21,8 +20,8 @@
 #include "console/folder_lock.hpp"
 #include "console/interrupt.hpp"
 #include "console/progress.hpp"
-#include "console/temporary_folder.hpp"
 #include "console/text.hpp"
+#include "io/temporary_folder.hpp"
 #include "results/run_outputs.hpp"
 
 namespace rilo {
@@ -41,11 +40,6 @@ std::string prepared(const std::string& out) {
   return out;
 }
 
-void describe_all(std::vector<BenchJob>& jobs, const BenchRunOptions& flags, const std::string& out) {
-  Describer describer(flags, out);
-  for (BenchJob& job : jobs) describer.describe(job);
-}
-
 std::string outcome_of(const BenchCell& cell) {
   if (cell.failed()) return "failed: " + cell.error;
   const auto t_rel = value_of(cell, bench_figure("t_rel_pct"));
@@ -59,7 +53,7 @@ class BenchRunner {
         jobs_(jobs),
         out_(prepared(order.out)),
         lock_(out_),
-        temporary_(order.out.empty() ? std::make_optional<TemporaryFolder>("rilo-bench") : std::nullopt),
+        temporary_(order.out.empty() ? std::make_optional<detail::TemporaryFolder>("rilo-bench") : std::nullopt),
         folder_(temporary_ ? temporary_->path() : std::filesystem::path(out_), !temporary_) {
     if (!order.baseline.empty()) baseline_ = read_saved_results(order.baseline);
   }
@@ -224,7 +218,7 @@ class BenchRunner {
   const std::vector<BenchJob>& jobs_;
   std::string out_;
   FolderLock lock_;
-  std::optional<TemporaryFolder> temporary_;
+  std::optional<detail::TemporaryFolder> temporary_;
   CellFolder folder_;
   nlohmann::json baseline_;
   std::map<std::string, CellRecord> records_;  // by key
@@ -239,25 +233,25 @@ class BenchRunner {
 }  // namespace
 
 int run_bench(const BenchOrder& order, std::vector<BenchJob> jobs) {
-  describe_all(jobs, order.run, order.out);
+  describe(jobs, order.run, order.out);
   return BenchRunner(order, jobs).run();
 }
 
-int run_bench_cell(const BenchOrder& order, std::vector<BenchJob> jobs, std::size_t number) {
+int run_bench_cell(const BenchOrder& order, const std::vector<BenchJob>& jobs, std::size_t number) {
   if (number >= jobs.size())
     throw RunError(RunErrorKind::kUsage, fmt::format("--cell {}: {} cells", number, jobs.size()));
-  BenchJob& job = jobs[number];
+  std::vector<BenchJob> job = {jobs[number]};
   BenchRunOptions flags = order.run;
   const char* processors = std::getenv("SLURM_CPUS_PER_TASK");
   if (flags.threads < 0) flags.threads = processors == nullptr ? 1 : std::max(1, std::atoi(processors));
-  Describer(flags, order.out).describe(job);
+  describe(job, flags, order.out);
   const CellFolder folder(order.out, true);
-  check_submitted(order.out, number, job, folder);
+  check_submitted(order.out, number, job.front(), folder);
   int code = kSuccess;
   const InterruptGuard guard;
   const BenchEvents events{
       {}, [&](const BenchJob& /*job*/, const CellRecord& record) { code = record.cells.front().error_code; }};
-  run_in_pool({job}, folder, flags, {}, events);
+  run_in_pool(job, folder, flags, {}, events);
   return InterruptGuard::signal() == 0 ? code : kSignalBase + InterruptGuard::signal();
 }
 

@@ -29,7 +29,7 @@ int run_bench(const BenchOrder& order, std::vector<BenchJob> jobs);
 /// What a Slurm job does: runs cell `number` (from 0) of the plan and leaves its file in `order.out`.
 /// @returns the exit code of the cell. @throws RunError, kBadData when data, configuration or program are not those
 /// of the submission any more.
-int run_bench_cell(const BenchOrder& order, std::vector<BenchJob> jobs, std::size_t number);
+int run_bench_cell(const BenchOrder& order, const std::vector<BenchJob>& jobs, std::size_t number);
 
 /// What to print of a store, and how.
 struct BenchView {

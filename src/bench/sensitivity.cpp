@@ -1,12 +1,11 @@
 #include "bench/sensitivity.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <optional>
-#include <string_view>
 
-#include "config/config_keys.hpp"
+#include "io/text.hpp"
+#include "rilo/config/config_key.hpp"
 
 namespace rilo {
 
@@ -22,17 +21,11 @@ std::map<std::string, std::string> map_of(const std::vector<std::string>& settin
   return result;
 }
 
-std::optional<double> number_of(std::string_view text) {
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && stop == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
-
 std::optional<double> default_of(const std::string& key) {
   OdometryConfig config;
   const ConfigKeys keys = odometry_keys(config);
   const ConfigKey* found = keys.find(key);
-  return found == nullptr ? std::nullopt : number_of(found->value());
+  return found == nullptr ? std::nullopt : detail::parse_double(found->value());
 }
 
 struct Change {
@@ -47,7 +40,7 @@ std::optional<Change> single_change(const std::map<std::string, std::string>& ba
   for (const auto& [key, text] : other) {
     const auto known = base.find(key);
     if (known != base.end() && known->second == text) continue;
-    const auto value = number_of(text);
+    const auto value = detail::parse_double(text);
     if (change || !value) return std::nullopt;
     change = Change{key, *value};
   }
@@ -82,7 +75,7 @@ std::vector<SensitivitySeries> find_sensitivities(const std::vector<Configuratio
     }
     for (auto& [key, series] : found) {
       const auto own = base.find(key);
-      const auto value = own != base.end() ? number_of(own->second) : default_of(key);
+      const auto value = own != base.end() ? detail::parse_double(own->second) : default_of(key);
       if (!value) continue;
       series.points.emplace_back(*value, name);
       std::sort(series.points.begin(), series.points.end());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <fcntl.h>
 #include <set>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include <unistd.h>
 
 #include "console/failure.hpp"
+#include "io/text.hpp"
 
 namespace rilo {
 
@@ -38,13 +38,6 @@ std::string trimmed_line(const std::string& text) {
   std::string line = text.substr(0, text.find('\n'));
   while (!line.empty() && (line.back() == ' ' || line.back() == '\r')) line.pop_back();
   return line;
-}
-
-std::optional<std::size_t> number_of(const std::string& text) {
-  std::size_t value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size() || text.empty()) return std::nullopt;
-  return value;
 }
 
 // What follows "key=" up to the next blank.
@@ -90,8 +83,8 @@ std::vector<SlurmTask> parse_queue(const std::string& text) {
     std::getline(fields, index, '|');
     std::getline(fields, task.state, '|');
     std::getline(fields, task.name);
-    const auto number = number_of(index);
-    if (!number || !number_of(task.array)) continue;
+    const auto number = detail::parse_unsigned(index);
+    if (!number || !detail::parse_unsigned(task.array)) continue;
     task.index = *number;
     task.name = trimmed_line(task.name);
     tasks.push_back(task);
@@ -141,7 +134,7 @@ std::string submit_array(const std::filesystem::path& script, const std::string&
   const std::string last = end == std::string::npos ? "" : result.out.substr(0, end + 1);
   const std::string line = last.substr(last.find_last_of('\n') + 1);
   std::string number = line.substr(0, line.find(';'));
-  if (result.code != 0 || !number_of(number)) {
+  if (result.code != 0 || !detail::parse_unsigned(number)) {
     throw RunError(RunErrorKind::kUsage, "--on slurm: sbatch rejected the jobs: " + last);
   }
   return number;

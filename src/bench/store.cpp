@@ -3,7 +3,6 @@
 #include <array>
 #include <memory>
 #include <sqlite3.h>
-#include <string_view>
 #include <system_error>
 
 #include "bench/cell_file.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ enum class MeasuredColumns : std::uint8_t { kWith, kWithout };
 /// also t_rel and APE by sequence and configuration.
 std::vector<TitledTable> bench_tables(const std::vector<BenchCell>& cells,
                                       MeasuredColumns measured = MeasuredColumns::kWith);
+
+/// Differences to an earlier benchmark: new minus old for each cell that both have; cells of only one are named in the
+/// note. `baseline`: its results.json.
+TitledTable baseline_table(const std::vector<BenchCell>& cells, const nlohmann::json& baseline,
+                           const std::filesystem::path& file);
 
 /// Every figure of every cell and of the averages: results.csv.
 TextTable bench_csv(const std::vector<BenchCell>& cells, MeasuredColumns measured = MeasuredColumns::kWith);

@@ -1,9 +1,10 @@
-#include "config/config_keys.hpp"
-
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "config/nearest_word.hpp"
+#include "rilo/config/config_key.hpp"
 
 namespace rilo {
 namespace {
@@ -80,9 +81,7 @@ std::string ConfigKeys::nearest(std::string_view name) const {
     for (const ConfigKey& key : section.keys) consider(key.name());
   }
   best.resize(std::min(best.size(), kMost));
-  std::string text;
-  for (const std::string& known : best) text += (text.empty() ? "" : " or ") + known;
-  return text;
+  return fmt::format("{}", fmt::join(best, " or "));
 }
 
 }  // namespace rilo

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "config/config_keys.hpp"
 #include "rilo/config/config_file.hpp"
+#include "rilo/config/config_key.hpp"
 
 namespace rilo {
 namespace {
@@ -35,9 +35,7 @@ std::string dump_tier(const ConfigKeys& all, bool expert, const std::string& ind
       entries.push_back(fmt::format("{}{}: {}", deeper, key.last_name(), key.value()));
       width = std::max(width, entries.back().size());
     }
-    if (!section.name.empty()) {
-      text += fmt::format("\n{}# {}\n{}{}:\n", indent, section.meaning, indent, section.name);
-    }
+    if (!section.name.empty()) text += fmt::format("\n{}# {}\n{}{}:\n", indent, section.meaning, indent, section.name);
     for (std::size_t i = 0; i < entries.size(); ++i) {
       text += fmt::format("{:<{}}  # {}\n", entries[i], width, comment_of(keys[i]));
     }

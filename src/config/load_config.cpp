@@ -3,9 +3,9 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "config/config_keys.hpp"
 #include "config/yaml_document.hpp"
 #include "rilo/config/config_file.hpp"
+#include "rilo/config/config_key.hpp"
 
 namespace rilo {
 namespace {

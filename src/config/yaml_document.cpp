@@ -71,9 +71,7 @@ std::string read_yaml_file(const std::filesystem::path& file, const std::string&
     throw ConfigError({file, "", "it cannot be read", "a readable file", "Check its permissions"});
   }
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > kLargestFile) {
-    throw ConfigError({file, "", "more than 1 MiB", expected, "Check the path"});
-  }
+  if (text.size() > kLargestFile) throw ConfigError({file, "", "more than 1 MiB", expected, "Check the path"});
   return text;
 }
 

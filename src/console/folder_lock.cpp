@@ -31,10 +31,9 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
   }
   if (result != EWOULDBLOCK) return;
   ::close(descriptor_);
-  throw RunError(RunErrorKind::kCannotWrite,
-                 folder.string() +
-                     ": another rilo is writing into this folder; wait until it has ended or choose "
-                     "another --out");
+  throw RunError(
+      RunErrorKind::kCannotWrite,
+      folder.string() + ": another rilo is writing into this folder; wait until it has ended or choose another --out");
 }
 
 FolderLock::~FolderLock() {

@@ -34,9 +34,7 @@ void Progress::update(std::size_t done, const std::string& note) {
   const auto now = Clock::now();
   const auto interval = terminal_ ? Clock::duration(kBarInterval) : Clock::duration(kLineInterval);
   const bool last = total_ && done == *total_;
-  if (quiet_ || (now - shown_ < interval && !(last && terminal_))) {
-    return;
-  }
+  if (quiet_ || (now - shown_ < interval && !(last && terminal_))) return;
   shown_ = now;
   open_line_ = terminal_;
   show(terminal_ ? kClearLine + line(done, note) : line(done, note) + "\n");
@@ -45,9 +43,7 @@ void Progress::update(std::size_t done, const std::string& note) {
 std::string Progress::line(std::size_t done, const std::string& note) const {
   const double seconds = std::max(1e-9, std::chrono::duration<double>(shown_ - begin_).count());
   const double rate = static_cast<double>(done) / seconds;
-  if (!total_ || *total_ == 0) {
-    return fmt::format("{} {} sweeps, {:.1f}/s {}", what_, done, rate, note);
-  }
+  if (!total_ || *total_ == 0) return fmt::format("{} {} sweeps, {:.1f}/s {}", what_, done, rate, note);
   const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(*total_));
   const auto filled = static_cast<std::size_t>(share * static_cast<double>(kBarWidth));
   const double left = rate > 0.0 ? static_cast<double>(*total_ - std::min(done, *total_)) / rate : 0.0;

@@ -35,9 +35,7 @@ Eigen::Matrix3d best_turn_about(const Eigen::Vector3d& axis, const Eigen::Matrix
 
 Eigen::Vector3d mean_position(const std::vector<SE3>& poses) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const SE3& T : poses) {
-    sum += T.translation();
-  }
+  for (const SE3& T : poses) sum += T.translation();
   return sum / static_cast<double>(poses.size());
 }
 
@@ -109,9 +107,7 @@ SE3 alignment_of(const std::vector<SE3>& truth, const std::vector<SE3>& estimate
 std::vector<SE3> moved(const std::vector<SE3>& poses, const SE3& T) {
   std::vector<SE3> result;
   result.reserve(poses.size());
-  for (const SE3& pose : poses) {
-    result.push_back(T * pose);
-  }
+  for (const SE3& pose : poses) result.push_back(T * pose);
   return result;
 }
 

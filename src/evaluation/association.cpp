@@ -33,12 +33,8 @@ std::size_t nearest(const Trajectory& trajectory, const std::vector<std::size_t>
       std::lower_bound(order.begin(), order.end(), stamp_ns,
                        [&trajectory](std::size_t i, std::int64_t stamp) { return trajectory[i].stamp_ns < stamp; });
   const auto place = static_cast<std::size_t>(after - order.begin());
-  if (place == 0) {
-    return 0;
-  }
-  if (place == order.size()) {
-    return place - 1;
-  }
+  if (place == 0) return 0;
+  if (place == order.size()) return place - 1;
   const std::uint64_t before_gap = gap_ns(stamp_ns, trajectory[order[place - 1]].stamp_ns);
   return before_gap <= gap_ns(stamp_ns, trajectory[order[place]].stamp_ns) ? place - 1 : place;
 }
@@ -78,9 +74,7 @@ MatchedPoses match_by_stamp(const Trajectory& truth, const Trajectory& estimate,
   }
   MatchedPoses matched;
   for (std::size_t place = 0; place < order.size(); ++place) {
-    if (taken_by[place]) {
-      add_match(truth, order[place], estimate, *taken_by[place], matched);
-    }
+    if (taken_by[place]) add_match(truth, order[place], estimate, *taken_by[place], matched);
   }
   if (matched.truth.size() < 2) {
     throw std::invalid_argument("only " + std::to_string(matched.truth.size()) + " of " +
@@ -97,18 +91,14 @@ MatchedPoses match_by_index(const Trajectory& truth, const Trajectory& estimate)
                                 " estimated poses");
   }
   MatchedPoses matched;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    add_match(truth, i, estimate, i, matched);
-  }
+  for (std::size_t i = 0; i < truth.size(); ++i) add_match(truth, i, estimate, i, matched);
   return matched;
 }
 
 std::vector<SE3> poses_of(const Trajectory& trajectory) {
   std::vector<SE3> poses;
   poses.reserve(trajectory.size());
-  for (const StampedPose& stamped : trajectory) {
-    poses.push_back(stamped.T_odom_lidar);
-  }
+  for (const StampedPose& stamped : trajectory) poses.push_back(stamped.T_odom_lidar);
   return poses;
 }
 

@@ -13,9 +13,7 @@ Evaluation evaluate(const std::vector<SE3>& truth, const std::vector<SE3>& estim
   evaluation.rpe_metre = rpe_per_metre(truth, estimate);
   evaluation.series = error_series(truth, estimate, Alignment::kFirstPose);
   evaluation.end_error_m = evaluation.series.back().translation_m;
-  if (evaluation.path_m > 0.0) {
-    evaluation.end_error_pct = 100.0 * evaluation.end_error_m / evaluation.path_m;
-  }
+  if (evaluation.path_m > 0.0) evaluation.end_error_pct = 100.0 * evaluation.end_error_m / evaluation.path_m;
   return evaluation;
 }
 

@@ -57,9 +57,7 @@ struct Accumulator {
 
 Accumulator sum_of(const std::vector<KittiSegment>& segments) {
   Accumulator sum;
-  for (const KittiSegment& segment : segments) {
-    sum.add(segment);
-  }
+  for (const KittiSegment& segment : segments) sum.add(segment);
   return sum;
 }
 
@@ -83,13 +81,9 @@ std::optional<double> KittiError::r_rel_deg_100m() const {
 
 std::vector<KittiLengthError> KittiError::per_length() const {
   std::map<double, Accumulator> sums;
-  for (const KittiSegment& segment : segments) {
-    sums[segment.length_m].add(segment);
-  }
+  for (const KittiSegment& segment : segments) sums[segment.length_m].add(segment);
   std::vector<KittiLengthError> result;
-  for (const auto& [length, sum] : sums) {
-    result.push_back({length, sum.count, sum.t_rel_pct(), sum.r_rel_deg_100m()});
-  }
+  for (const auto& [length, sum] : sums) result.push_back({length, sum.count, sum.t_rel_pct(), sum.r_rel_deg_100m()});
   return result;
 }
 
@@ -123,9 +117,7 @@ KittiBenchmark kitti_benchmark(const std::vector<KittiError>& sequences) {
   double r_sum = 0;
   double count = 0;
   for (const KittiError& sequence : sequences) {
-    if (sequence.segments.empty()) {
-      continue;
-    }
+    if (sequence.segments.empty()) continue;
     pooled.segments.insert(pooled.segments.end(), sequence.segments.begin(), sequence.segments.end());
     const Accumulator sum = sum_of(sequence.segments);
     t_sum += sum.t_rel_pct();

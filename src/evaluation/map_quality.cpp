@@ -26,9 +26,7 @@ constexpr double kLeastVariance = 1e-12;   // m²: a micrometre; keeps the logar
 constexpr double kMaxVoxelsOfRange = 1e6;  // what a voxel key can hold
 
 void check(bool sensible, const char* what) {
-  if (!sensible) {
-    throw std::invalid_argument(std::string("map quality: ") + what);
-  }
+  if (!sensible) throw std::invalid_argument(std::string("map quality: ") + what);
 }
 
 void check(const MapQualityConfig& c) {
@@ -74,9 +72,7 @@ class Ball {
   using IndexType = std::uint32_t;
   explicit Ball(double radius_m) : limit_(std::nextafter(radius_m * radius_m, std::numeric_limits<double>::max())) {}
   bool addPoint(double distance2, std::uint32_t index) {  // NOLINT(readability-identifier-naming)
-    if (distance2 < limit_) {
-      found_.push_back(index);
-    }
+    if (distance2 < limit_) found_.push_back(index);
     return true;
   }
   double worstDist() const { return limit_; }  // NOLINT(readability-identifier-naming)
@@ -111,9 +107,7 @@ std::size_t sweeps_among(const WindowMap& map, const std::vector<std::uint32_t>&
 Eigen::Matrix3d covariance(const std::vector<Eigen::Vector3d>& points, const std::vector<std::uint32_t>& indices) {
   const auto n = static_cast<double>(indices.size());
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const std::uint32_t i : indices) {
-    mean += points[i];
-  }
+  for (const std::uint32_t i : indices) mean += points[i];
   mean /= n;
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const std::uint32_t i : indices) {
@@ -127,9 +121,7 @@ Place look_at(const WindowMap& map, const Tree& tree, const Eigen::Vector3d& cen
   Ball ball(config.radius_m);
   tree.findNeighbors(ball, centre.data(), {});
   Place place;
-  if (ball.size() < config.min_neighbours || sweeps_among(map, ball.found()) < config.min_sweeps) {
-    return place;
-  }
+  if (ball.size() < config.min_neighbours || sweeps_among(map, ball.found()) < config.min_sweeps) return place;
   // Iterated, not in closed form: of a thin wall the smallest eigenvalue matters to the last digit.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance(map.points, ball.found()),
                                                               Eigen::EigenvaluesOnly);
@@ -158,12 +150,8 @@ MapQualityMeter::MapQualityMeter(const MapQualityConfig& config)
 bool MapQualityMeter::needed(std::size_t number) const {
   for (std::size_t first = number / window_step_ * window_step_; number - first < config_.window_sweeps;
        first -= window_step_) {
-    if ((number - first) % config_.sweep_step == 0) {
-      return true;
-    }
-    if (first == 0) {
-      break;
-    }
+    if ((number - first) % config_.sweep_step == 0) return true;
+    if (first == 0) break;
   }
   return false;
 }
@@ -189,16 +177,12 @@ MapQualityMeter::Kept MapQualityMeter::thinned(const std::vector<Eigen::Vector3f
   if (config_.voxel_m > 0) {
     VoxelSampler sampler;
     const auto numbers = std::exchange(drawn, {});
-    for (const std::uint32_t i : sampler.sample(usable, config_.voxel_m)) {
-      drawn.push_back(numbers[i]);
-    }
+    for (const std::uint32_t i : sampler.sample(usable, config_.voxel_m)) drawn.push_back(numbers[i]);
   }
   std::sort(drawn.begin(), drawn.end());
   drawn.resize(std::min(drawn.size(), config_.points_per_sweep));
   Kept kept{sweeps_, {}, T_odom_lidar};
-  for (const auto& [number, i] : drawn) {
-    kept.points.push_back(usable[i].cast<double>());
-  }
+  for (const auto& [number, i] : drawn) kept.points.push_back(usable[i].cast<double>());
   return kept;
 }
 
@@ -206,18 +190,12 @@ void MapQualityMeter::add(const std::vector<Eigen::Vector3f>& points, const SE3&
   if (!T_odom_lidar.matrix().allFinite()) {
     throw std::invalid_argument("map quality: the pose of sweep " + std::to_string(sweeps_) + " is not finite");
   }
-  if (needed(sweeps_)) {
-    kept_.push_back(thinned(points, T_odom_lidar));
-  }
+  if (needed(sweeps_)) kept_.push_back(thinned(points, T_odom_lidar));
   ++sweeps_;
-  if (sweeps_ < config_.window_sweeps || (sweeps_ - config_.window_sweeps) % window_step_ != 0) {
-    return;
-  }
+  if (sweeps_ < config_.window_sweeps || (sweeps_ - config_.window_sweeps) % window_step_ != 0) return;
   const std::size_t first = sweeps_ - config_.window_sweeps;
   measure(first);
-  while (!kept_.empty() && kept_.front().number < first + window_step_) {
-    kept_.pop_front();
-  }
+  while (!kept_.empty() && kept_.front().number < first + window_step_) kept_.pop_front();
 }
 
 void MapQualityMeter::measure(std::size_t first) {
@@ -225,18 +203,12 @@ void MapQualityMeter::measure(std::size_t first) {
   const Kept& reference = kept_.front();  // sweep `first`: what came before was dropped with the window before
   WindowMap map;
   for (const Kept& kept : kept_) {
-    if ((kept.number - first) % config_.sweep_step != 0) {
-      continue;
-    }
+    if ((kept.number - first) % config_.sweep_step != 0) continue;
     const SE3 T_first_kept = reference.T_odom_lidar.inverse() * kept.T_odom_lidar;
-    for (const Eigen::Vector3d& p : kept.points) {
-      map.points.emplace_back(T_first_kept * p);
-    }
+    for (const Eigen::Vector3d& p : kept.points) map.points.emplace_back(T_first_kept * p);
     map.sweep_of.resize(map.points.size(), map.sweeps++);
   }
-  if (reference.points.empty()) {
-    return;
-  }
+  if (reference.points.empty()) return;
   const Tree tree(3, map, nanoflann::KDTreeSingleIndexAdaptorParams(32));
   std::vector<Place> places(std::min(reference.points.size(), config_.samples_per_window));
   const tbb::global_control workers(tbb::global_control::max_allowed_parallelism, workers_for(config_.threads));
@@ -245,12 +217,8 @@ void MapQualityMeter::measure(std::size_t first) {
     for_each_index(places.size(), [&](std::size_t i) { places[i] = look_at(map, tree, map.points[i], config_); });
   });
   for (const Place& place : places) {
-    if (place.counts) {
-      entropies_.push_back(place.entropy);
-    }
-    if (place.planar) {
-      plane_rms_m_.push_back(place.plane_rms_m);
-    }
+    if (place.counts) entropies_.push_back(place.entropy);
+    if (place.planar) plane_rms_m_.push_back(place.plane_rms_m);
   }
 }
 
@@ -263,9 +231,7 @@ MapQuality MapQualityMeter::result() const {
   std::vector<double> sorted = plane_rms_m_;
   std::sort(sorted.begin(), sorted.end());
   quality.plane_rms_p75_m = percentile(sorted, 0.75);
-  if (!entropies_.empty()) {
-    quality.mean_map_entropy = summarise(entropies_).mean;
-  }
+  if (!entropies_.empty()) quality.mean_map_entropy = summarise(entropies_).mean;
   return quality;
 }
 
@@ -273,9 +239,7 @@ MapQuality map_quality(const std::vector<std::vector<Eigen::Vector3f>>& sweeps, 
                        const MapQualityConfig& config) {
   check(sweeps.size() == T_odom_lidar.size(), "there must be as many poses as sweeps");
   MapQualityMeter meter(config);
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
-    meter.add(sweeps[i], T_odom_lidar[i]);
-  }
+  for (std::size_t i = 0; i < sweeps.size(); ++i) meter.add(sweeps[i], T_odom_lidar[i]);
   return meter.result();
 }
 

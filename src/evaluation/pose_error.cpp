@@ -50,9 +50,7 @@ class PairErrors {
 RelativePoseError rpe_per_frame(const std::vector<SE3>& truth, const std::vector<SE3>& estimate) {
   check_trajectories(truth, estimate);
   PairErrors errors(truth, estimate);
-  for (std::size_t i = 1; i < truth.size(); ++i) {
-    errors.add(i - 1, i, 1.0);
-  }
+  for (std::size_t i = 1; i < truth.size(); ++i) errors.add(i - 1, i, 1.0);
   return errors.summary();
 }
 
@@ -62,9 +60,7 @@ RelativePoseError rpe_per_metre(const std::vector<SE3>& truth, const std::vector
   PairErrors errors(truth, estimate);
   for (std::size_t first = 0; first < truth.size(); ++first) {
     const auto last = std::lower_bound(distances.begin(), distances.end(), distances[first] + 1.0);
-    if (last == distances.end()) {
-      break;
-    }
+    if (last == distances.end()) break;
     errors.add(first, static_cast<std::size_t>(last - distances.begin()), *last - distances[first]);
   }
   return errors.summary();

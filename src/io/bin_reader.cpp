@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 #include <system_error>
 
-#include "io/bin_fields.hpp"
 #include "io/cloud_columns.hpp"
 #include "io/file_bytes.hpp"
+#include "io/raw_bytes.hpp"
 #include "io/text.hpp"
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/io_error.hpp"
@@ -57,8 +56,7 @@ bool has_rings_behind(const std::filesystem::path& file) {
   try {
     const FileBytes bytes = read_file(file, kRecords * kColumns * sizeof(float));
     for (std::size_t at = 0; at + kColumns * sizeof(float) <= bytes.size; at += kColumns * sizeof(float)) {
-      float ring = 0;
-      std::memcpy(&ring, bytes.data.get() + at + 4 * sizeof(float), sizeof(ring));
+      const auto ring = load_bytes<float>(bytes.view(), at + 4 * sizeof(float));
       if (!(ring >= 0 && ring < kMostBeams && ring == std::floor(ring))) return false;
     }
   } catch (const IoError&) {

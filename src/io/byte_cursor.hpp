@@ -1,14 +1,13 @@
 // Walks through bytes of a known layout and says where they end too early.
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <string_view>
+
+#include "io/raw_bytes.hpp"
 
 namespace rilo::detail {
 
@@ -30,11 +29,7 @@ class ByteCursor {
   /// @throws IoError when the bytes end first; `what` is named in the message.
   template <typename T>
   T take(const char* what) {
-    const std::string_view from = take_bytes(sizeof(T), what);
-    std::array<char, sizeof(T)> raw{};
-    std::memcpy(raw.data(), from.data(), sizeof(T));
-    static_assert(std::endian::native == std::endian::little, "the formats are little-endian");
-    return std::bit_cast<T>(raw);
+    return load_bytes<T>(take_bytes(sizeof(T), what), 0);
   }
   std::string_view take_bytes(std::size_t count, const char* what);
 

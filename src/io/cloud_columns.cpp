@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
 #include <limits>
 
+#include "io/raw_bytes.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
@@ -67,20 +67,12 @@ auto with_type(ScalarType type, Function&& function) {
   return function(double{});
 }
 
-template <typename T>
-T load(const char* from, bool big_endian) {
-  std::array<char, sizeof(T)> bytes{};
-  std::memcpy(bytes.data(), from, sizeof(T));
-  if (big_endian != (std::endian::native == std::endian::big)) std::reverse(bytes.begin(), bytes.end());
-  return std::bit_cast<T>(bytes);
-}
-
 template <typename Visit>
 void for_each_value(const ColumnView& column, std::size_t count, Visit&& visit) {
   with_type(column.type, [&](auto example) {
     const char* from = column.data;
     for (std::size_t i = 0; i < count; ++i, from += column.stride) {
-      visit(i, load<decltype(example)>(from, column.big_endian));
+      visit(i, load_bytes<decltype(example)>({from, sizeof(example)}, 0, column.big_endian));
     }
   });
 }

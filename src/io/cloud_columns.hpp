@@ -21,6 +21,14 @@ struct Field {
   std::size_t bytes() const { return size_of(type) * count; }
 };
 
+/// The columns of a .bin record, see SourceOptions::bin_fields. @throws std::invalid_argument when `text` makes no
+/// sense.
+std::vector<Field> parse_bin_fields(const std::string& text);
+
+/// For bin_fields "auto": x,y,z,intensity, or with a ring behind when the sizes of the files fit nothing else and the
+/// fifth column has numbers of beams, or when they are named as nuScenes does (NAME.pcd.bin).
+std::string guess_bin_fields(const std::vector<std::filesystem::path>& files);
+
 /// Which field is what; indices into the list of fields.
 struct FieldRoles {
   std::size_t x = 0;

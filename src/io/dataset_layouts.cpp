@@ -1,8 +1,6 @@
 // Folders as data sets are published: KITTI raw, MulRan.
-#include <algorithm>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "io/file_bytes.hpp"
 #include "io/kitti_calibration.hpp"

@@ -1,12 +1,12 @@
-#include "io/elevation_correction.hpp"
-
+// Constant error of a spinning LiDAR's elevation angles.
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "geometry/degrees.hpp"
+#include "io/source_wrappers.hpp"
 
-namespace rilo {
+namespace rilo::detail {
 namespace {
 
 class ElevationCorrectedSource final : public ScanSource {
@@ -58,4 +58,4 @@ std::unique_ptr<ScanSource> with_elevation_correction(std::unique_ptr<ScanSource
   return std::make_unique<ElevationCorrectedSource>(std::move(inner), offset_deg);
 }
 
-}  // namespace rilo
+}  // namespace rilo::detail

@@ -1,16 +1,15 @@
-#include "io/file_source.hpp"
-
+// Sweeps from files, one file each.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "io/bin_fields.hpp"
 #include "io/cloud_columns.hpp"
 #include "io/file_bytes.hpp"
 #include "io/pcd_header.hpp"
 #include "io/ply_header.hpp"
+#include "io/scan_listing.hpp"
+#include "io/sweep_timing.hpp"
 #include "rilo/io/cloud_reader.hpp"
 
 namespace rilo::detail {
@@ -83,76 +82,92 @@ RawTimes read_fractions(const std::filesystem::path& file, std::size_t points) {
   return times;
 }
 
+class FileSource final : public ScanSource {
+ public:
+  FileSource(ScanListing listing, const SourceOptions& options)
+      : listing_(std::move(listing)),
+        options_(with_bin_fields(listing_, options)),
+        timing_(options, hints_of(listing_, options), listing_.info.period_s) {
+    note_unused_topic(options, listing_.info);
+    if (options.point_times == PointTimes::kAuto) timing_.promise(promised_times(listing_, options_));
+  }
+
+  std::optional<Sweep> next() override {
+    while (cursor_ < listing_.files.size()) {
+      current_ = cursor_++;
+      try {
+        return load(current_);
+      } catch (const IoError& error) {
+        if (options_.on_bad_sweep == OnBadSweep::kFail) throw;
+        note_bad_sweep(error, listing_.info);
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::size_t skip(std::size_t count) override {
+    const std::size_t skipped = std::min(count, listing_.files.size() - cursor_);
+    cursor_ += skipped;
+    return skipped;
+  }
+
+  std::optional<std::size_t> size() const override { return listing_.files.size(); }
+  std::size_t current_index() const override { return current_; }
+  std::string current_name() const override { return listing_.files[current_].string(); }
+
+  SourceInfo info() const override {
+    SourceInfo info = listing_.info;
+    info.has_point_times = timing_.has_times();
+    info.point_times = timing_.description();
+    if (timing_.sets_stamps()) info.stamps_assumed = false;
+    if (info.stamps_assumed && info.kind != "file") {
+      info.warnings.insert(
+          info.warnings.begin(),
+          fmt::format("no timestamps found; assuming {:g} Hz (change with --rate)", options_.assumed_rate_hz));
+    }
+    add_bad_sweep_count(info);
+    return info;
+  }
+
+ private:
+  RawCloud read_cloud(const std::filesystem::path& file) const {
+    if (listing_.info.format == "bin") return read_bin(file, options_.bin_fields);
+    if (listing_.info.format == "pcd") return read_pcd(file, options_.time_field);
+    return read_ply(file, options_.time_field);
+  }
+
+  Sweep load(std::size_t index) {
+    RawCloud cloud = read_cloud(listing_.files[index]);
+    Sweep sweep;
+    sweep.stamp_ns = listing_.stamps_ns[index];
+    sweep.points = std::move(cloud.points);
+    sweep.intensities = std::move(cloud.intensities);
+    sweep.rings = std::move(cloud.rings);
+    set_times(index, std::move(cloud.times), sweep);
+    return sweep;
+  }
+
+  void set_times(std::size_t index, std::optional<RawTimes> times, Sweep& sweep) {
+    std::filesystem::path file = listing_.files[index];
+    if (options_.point_times == PointTimes::kAuto && !listing_.fraction_files.empty()) {
+      file = listing_.fraction_files[index];
+      times = read_fractions(file, sweep.points.size());
+    }
+    if (!times && listing_.column_points > 0) times = column_fractions(sweep.points.size(), listing_.column_points);
+    timing_.apply(times, file, listing_.forward_after_s, sweep);
+  }
+
+  ScanListing listing_;
+  SourceOptions options_;
+  SweepTiming timing_;
+  std::size_t cursor_ = 0;   // of the next sweep
+  std::size_t current_ = 0;  // of the last one
+};
+
 }  // namespace
 
-FileSource::FileSource(ScanListing listing, const SourceOptions& options)
-    : listing_(std::move(listing)),
-      options_(with_bin_fields(listing_, options)),
-      timing_(options, hints_of(listing_, options), listing_.info.period_s) {
-  note_unused_topic(options, listing_.info);
-  if (options.point_times == PointTimes::kAuto) timing_.promise(promised_times(listing_, options_));
-}
-
-std::optional<Sweep> FileSource::next() {
-  while (cursor_ < listing_.files.size()) {
-    current_ = cursor_++;
-    try {
-      return load(current_);
-    } catch (const IoError& error) {
-      if (options_.on_bad_sweep == OnBadSweep::kFail) throw;
-      note_bad_sweep(error, listing_.info);
-    }
-  }
-  return std::nullopt;
-}
-
-std::size_t FileSource::skip(std::size_t count) {
-  const std::size_t skipped = std::min(count, listing_.files.size() - cursor_);
-  cursor_ += skipped;
-  return skipped;
-}
-
-std::string FileSource::current_name() const { return listing_.files[current_].string(); }
-
-SourceInfo FileSource::info() const {
-  SourceInfo info = listing_.info;
-  info.has_point_times = timing_.has_times();
-  info.point_times = timing_.description();
-  if (timing_.sets_stamps()) info.stamps_assumed = false;
-  if (info.stamps_assumed && info.kind != "file") {
-    info.warnings.insert(
-        info.warnings.begin(),
-        fmt::format("no timestamps found; assuming {:g} Hz (change with --rate)", options_.assumed_rate_hz));
-  }
-  add_bad_sweep_count(info);
-  return info;
-}
-
-RawCloud FileSource::read_cloud(const std::filesystem::path& file) const {
-  if (listing_.info.format == "bin") return read_bin(file, options_.bin_fields);
-  if (listing_.info.format == "pcd") return read_pcd(file, options_.time_field);
-  return read_ply(file, options_.time_field);
-}
-
-Sweep FileSource::load(std::size_t index) {
-  RawCloud cloud = read_cloud(listing_.files[index]);
-  Sweep sweep;
-  sweep.stamp_ns = listing_.stamps_ns[index];
-  sweep.points = std::move(cloud.points);
-  sweep.intensities = std::move(cloud.intensities);
-  sweep.rings = std::move(cloud.rings);
-  set_times(index, std::move(cloud.times), sweep);
-  return sweep;
-}
-
-void FileSource::set_times(std::size_t index, std::optional<RawTimes> times, Sweep& sweep) {
-  std::filesystem::path file = listing_.files[index];
-  if (options_.point_times == PointTimes::kAuto && !listing_.fraction_files.empty()) {
-    file = listing_.fraction_files[index];
-    times = read_fractions(file, sweep.points.size());
-  }
-  if (!times && listing_.column_points > 0) times = column_fractions(sweep.points.size(), listing_.column_points);
-  timing_.apply(times, file, listing_.forward_after_s, sweep);
+std::unique_ptr<ScanSource> open_files(ScanListing listing, const SourceOptions& options) {
+  return std::make_unique<FileSource>(std::move(listing), options);
 }
 
 }  // namespace rilo::detail

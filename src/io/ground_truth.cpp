@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/file_bytes.hpp"
 #include "io/kitti_oxts.hpp"
 #include "io/scan_listing.hpp"
 #include "rilo/io/io_error.hpp"
@@ -13,26 +14,17 @@ namespace rilo {
 namespace fs = std::filesystem;
 namespace {
 
-bool file_exists(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored);
-}
-
 std::optional<SE3> calibration_of(const fs::path& data) {
   const fs::path file = data / "calib.txt";
-  return file_exists(file) ? read_kitti_calibration(file) : std::nullopt;
+  return detail::is_file(file) ? read_kitti_calibration(file) : std::nullopt;
 }
 
 GroundTruth lidar_frame(const fs::path& file, std::string instant) {
-  return {read_kitti_poses(file), file, "LiDAR frame", std::move(instant), {}};
+  return {read_kitti_poses(file), file, std::move(instant), {}};
 }
 
 GroundTruth camera_frame(const fs::path& file, const SE3& T_cam_lidar) {
-  return {camera_to_lidar(read_kitti_poses(file), T_cam_lidar),
-          file,
-          "camera frame, brought to the LiDAR frame with Tr of calib.txt",
-          "stamp",
-          {}};
+  return {camera_to_lidar(read_kitti_poses(file), T_cam_lidar), file, "stamp", {}};
 }
 
 // KITTI odometry: sequences/NN beside poses/NN.txt.
@@ -42,12 +34,13 @@ fs::path official_poses(const fs::path& data) {
   return folder.parent_path().parent_path() / "poses" / (folder.filename().string() + ".txt");
 }
 
-std::optional<GroundTruth> find_truth(const fs::path& data, TruthInstant instant) {
+std::optional<GroundTruth> find_truth(const fs::path& data, PoseInstant instant) {
   const std::string wanted(to_string(instant));
-  if (const fs::path file = data / ("poses_" + wanted + ".txt"); file_exists(file)) return lidar_frame(file, wanted);
-  if (const fs::path file = data / "poses_velo.txt"; file_exists(file)) return lidar_frame(file, "stamp");
+  if (const fs::path file = data / ("poses_" + wanted + ".txt"); detail::is_file(file))
+    return lidar_frame(file, wanted);
+  if (const fs::path file = data / "poses_velo.txt"; detail::is_file(file)) return lidar_frame(file, "stamp");
   const auto T_cam_lidar = calibration_of(data);
-  if (const fs::path file = data / "poses.txt"; file_exists(file)) {
+  if (const fs::path file = data / "poses.txt"; detail::is_file(file)) {
     if (T_cam_lidar) return camera_frame(file, *T_cam_lidar);
     GroundTruth truth = lidar_frame(file, "stamp");
     truth.warnings.emplace_back("no Tr in calib.txt: poses.txt is taken to be in the LiDAR frame");
@@ -56,7 +49,7 @@ std::optional<GroundTruth> find_truth(const fs::path& data, TruthInstant instant
   if (auto truth = detail::kitti_raw_truth(data)) return truth;
   const fs::path file = official_poses(data);
   std::error_code ignored;
-  if (!fs::is_directory(data / "velodyne", ignored) || !file_exists(file)) return std::nullopt;
+  if (!fs::is_directory(data / "velodyne", ignored) || !detail::is_file(file)) return std::nullopt;
   if (!T_cam_lidar) {
     throw IoError({file, "", "poses in the camera frame and no Tr in " + (data / "calib.txt").string(),
                    "the transform from LiDAR to camera", "Put KITTI's calib.txt into the sequence folder"});
@@ -86,32 +79,20 @@ void compare_counts(const fs::path& data, GroundTruth& truth) {
 
 }  // namespace
 
-std::string_view to_string(TruthInstant value) {
-  switch (value) {
-    case TruthInstant::kStart:
-      return "start";
-    case TruthInstant::kMid:
-      return "mid";
-    case TruthInstant::kEnd:
-      break;
-  }
-  return "end";
-}
-
-std::optional<TruthInstant> parse_truth_instant(std::string_view text) {
-  for (const TruthInstant value : {TruthInstant::kStart, TruthInstant::kMid, TruthInstant::kEnd}) {
+std::optional<PoseInstant> parse_pose_instant(std::string_view text) {
+  for (const PoseInstant value : {PoseInstant::kStart, PoseInstant::kMid, PoseInstant::kEnd}) {
     if (to_string(value) == text) return value;
   }
   return std::nullopt;
 }
 
-std::optional<GroundTruth> read_ground_truth(const fs::path& data, TruthInstant instant) {
+std::optional<GroundTruth> read_ground_truth(const fs::path& data, PoseInstant instant) {
   std::error_code ignored;
   if (!fs::is_directory(data, ignored)) return std::nullopt;
   auto truth = find_truth(data, instant);
   if (!truth) return std::nullopt;
   // Spinning sensors stamp the middle of the sweep (KITTI); the others are half a sweep away.
-  if (truth->instant == "stamp" && instant != TruthInstant::kMid) {
+  if (truth->instant == "stamp" && instant != PoseInstant::kMid) {
     truth->warnings.push_back(truth->file.filename().string() + " is at the stamps, not at the " +
                               std::string(to_string(instant)) + " of the sweeps");
   }

@@ -2,10 +2,7 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "geometry/degrees.hpp"
 #include "io/file_bytes.hpp"
@@ -119,8 +116,7 @@ std::optional<GroundTruth> kitti_raw_truth(const fs::path& drive) {
   if (!is_kitti_raw(drive) || !fs::is_directory(data, error)) return std::nullopt;
   check_synchronised(drive, data);
   const SE3 T_imu_lidar = lidar_from_imu(drive).inverse();
-  GroundTruth truth{
-      {}, drive / "oxts", "GPS/IMU unit, brought to the LiDAR frame with calib_imu_to_velo.txt", "stamp", {}};
+  GroundTruth truth{{}, drive / "oxts", "stamp", {}};
   std::optional<double> scale;
   SE3 T_first_world;
   for (const fs::path& sweep : find_sweep_files(drive / "velodyne_points" / "data").files) {

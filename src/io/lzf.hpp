@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace rilo::detail {
@@ -15,8 +14,5 @@ inline constexpr std::size_t kLzfLargestExpansion = 88;
 /// Decompresses into exactly `output`. Returns nothing when that went well, else the offset in `input` where it does
 /// not fit.
 std::optional<std::size_t> lzf_decompress(std::string_view input, std::span<char> output);
-
-/// Compresses; incompressible input grows by 1/32.
-std::string lzf_compress(std::string_view input);
 
 }  // namespace rilo::detail

@@ -1,6 +1,5 @@
 #include "rilo/io/map_writer.hpp"
 
-#include <bit>
 #include <stdexcept>
 #include <string>
 
@@ -13,8 +12,6 @@
 
 namespace rilo {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "maps and sweeps are written as they lie in memory");
 
 bool is_ply(const std::filesystem::path& file) {
   const std::string extension = detail::lower_case(file.extension().string());

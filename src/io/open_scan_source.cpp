@@ -1,18 +1,13 @@
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
-#include "io/bin_fields.hpp"
-#include "io/elevation_correction.hpp"
-#include "io/file_source.hpp"
+#include "io/cloud_columns.hpp"
+#include "io/file_bytes.hpp"
 #include "io/packets/packet_source.hpp"
-#include "io/prefetch_source.hpp"
-#include "io/ros/live_recording.hpp"
 #include "io/ros/recording_source.hpp"
 #include "io/scan_listing.hpp"
-#include "io/stamp_order.hpp"
+#include "io/source_wrappers.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/scan_source.hpp"
@@ -32,26 +27,11 @@ void check_options(const SourceOptions& options) {
 
 std::string extension_of(const fs::path& file) { return detail::lower_case(file.extension().string()); }
 
-// Files of the folder with one of the extensions, in natural order.
-std::vector<fs::path> files_with(const fs::path& folder, std::initializer_list<std::string_view> extensions) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string extension = extension_of(entry->path());
-    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) files.push_back(entry->path());
-  }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return detail::natural_less(a.filename().string(), b.filename().string());
-  });
-  return files;
-}
-
 std::unique_ptr<detail::Recording> recording_in_folder(const fs::path& folder) {
-  std::error_code ignored;
-  if (fs::exists(folder / "metadata.yaml", ignored) || !files_with(folder, {".db3", ".mcap"}).empty()) {
+  if (detail::path_exists(folder / "metadata.yaml") || !detail::files_with(folder, {".db3", ".mcap"}).empty()) {
     return detail::open_rosbag2(folder);
   }
-  auto bags = files_with(folder, {".bag"});
+  auto bags = detail::files_with(folder, {".bag"});
   if (!bags.empty()) return detail::open_in_turn(std::move(bags), detail::open_bag);
   return nullptr;
 }
@@ -67,27 +47,21 @@ std::unique_ptr<detail::Recording> recording_in_file(const fs::path& file) {
 std::unique_ptr<ScanSource> open_folder(const fs::path& folder, const SourceOptions& options) {
   std::error_code ignored;
   if (fs::is_directory(folder / "velodyne", ignored)) {
-    return std::make_unique<detail::FileSource>(detail::list_sequence(folder, options), options);
+    return detail::open_files(detail::list_sequence(folder, options), options);
   }
-  if (detail::is_kitti_raw(folder)) {
-    return std::make_unique<detail::FileSource>(detail::list_kitti_raw(folder, options), options);
-  }
-  if (detail::is_mulran(folder)) {
-    return std::make_unique<detail::FileSource>(detail::list_mulran(folder, options), options);
-  }
+  if (detail::is_kitti_raw(folder)) return detail::open_files(detail::list_kitti_raw(folder, options), options);
+  if (detail::is_mulran(folder)) return detail::open_files(detail::list_mulran(folder, options), options);
   if (auto recording = recording_in_folder(folder)) {
     return detail::open_recording(folder, std::move(recording), options);
   }
-  return std::make_unique<detail::FileSource>(detail::list_plain_folder(folder, options), options);
+  return detail::open_files(detail::list_plain_folder(folder, options), options);
 }
 
 std::unique_ptr<ScanSource> open_file(const fs::path& file, const SourceOptions& options) {
   const std::string extension = extension_of(file);
   if (extension == ".pcap" || extension == ".pcapng") return detail::open_capture(file, options);
-  if (auto recording = recording_in_file(file)) {
-    return detail::open_recording(file, std::move(recording), options);
-  }
-  return std::make_unique<detail::FileSource>(detail::list_single_file(file, options), options);
+  if (auto recording = recording_in_file(file)) return detail::open_recording(file, std::move(recording), options);
+  return detail::open_files(detail::list_single_file(file, options), options);
 }
 
 std::unique_ptr<detail::Recording> recording_at(const fs::path& path) {
@@ -107,7 +81,7 @@ std::unique_ptr<ScanSource> open_data(const fs::path& path, const SourceOptions&
 std::unique_ptr<ScanSource> in_order_and_corrected(std::unique_ptr<ScanSource> source, const SourceOptions& options) {
   source = detail::with_stamp_order(std::move(source));
   if (options.elevation_correction_deg == 0) return source;
-  return with_elevation_correction(std::move(source), options.elevation_correction_deg);
+  return detail::with_elevation_correction(std::move(source), options.elevation_correction_deg);
 }
 
 }  // namespace
@@ -120,8 +94,7 @@ std::unique_ptr<ScanSource> open_live_source(std::shared_ptr<LiveQueue> queue, c
 std::unique_ptr<ScanSource> open_scan_source(const fs::path& path, const SourceOptions& options) {
   check_options(options);
   std::unique_ptr<ScanSource> source = in_order_and_corrected(open_data(path, options), options);
-  if (options.read_ahead > 0) source = std::make_unique<PrefetchSource>(std::move(source), options.read_ahead);
-  return source;
+  return options.read_ahead == 0 ? std::move(source) : detail::with_read_ahead(std::move(source), options.read_ahead);
 }
 
 std::vector<TopicInfo> recorded_topics(const fs::path& path) {

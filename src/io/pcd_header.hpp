@@ -2,14 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 #include <vector>
 
 #include "io/cloud_columns.hpp"
-#include "io/sweep_writer.hpp"
 
 namespace rilo::detail {
+
+enum class PcdEncoding : std::uint8_t { kAscii, kBinary, kBinaryCompressed };
 
 struct PcdHeader {
   std::vector<Field> fields;

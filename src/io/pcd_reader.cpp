@@ -1,6 +1,4 @@
 // PCD: ascii, binary, binary_compressed.
-#include <bit>
-#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,6 +7,7 @@
 #include "io/file_bytes.hpp"
 #include "io/lzf.hpp"
 #include "io/pcd_header.hpp"
+#include "io/raw_bytes.hpp"
 #include "io/text.hpp"
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/io_error.hpp"
@@ -112,14 +111,6 @@ RawCloud read_binary(const PcdBody& body) {
   return assemble_cloud(body.header.fields, body.roles, columns, body.header.points);
 }
 
-std::size_t read_uint32(std::string_view bytes, std::size_t offset) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < sizeof(value); ++i) {
-    value |= std::uint32_t{static_cast<unsigned char>(bytes[offset + i])} << (8 * i);
-  }
-  return value;
-}
-
 struct Unpacked {
   std::unique_ptr<char[]> data;
   std::size_t size = 0;
@@ -132,8 +123,8 @@ Unpacked decompress(const PcdBody& body) {
     if (body.header.points == 0) return {};
     body.fail(body.position(0), std::to_string(bytes.size()) + " bytes after the header", "8 bytes with the two sizes");
   }
-  const std::size_t packed = read_uint32(bytes, 0);
-  const std::size_t unpacked = read_uint32(bytes, 4);
+  const std::size_t packed = load_bytes<std::uint32_t>(bytes, 0);
+  const std::size_t unpacked = load_bytes<std::uint32_t>(bytes, 4);
   if (packed > bytes.size() - kSizes) {
     body.fail(body.position(0), "a compressed size of " + std::to_string(packed) + " bytes",
               "at most the " + std::to_string(bytes.size() - kSizes) + " that follow");
@@ -179,11 +170,11 @@ RawCloud read_pcd(const std::filesystem::path& file, const std::string& time_fie
   const detail::PcdHeader header = detail::parse_pcd_header(file, bytes.view());
   const detail::PcdBody body{bytes, header, detail::find_roles(header.fields, time_field, file)};
   switch (header.encoding) {
-    case PcdEncoding::kAscii:
+    case detail::PcdEncoding::kAscii:
       return detail::read_ascii(body);
-    case PcdEncoding::kBinary:
+    case detail::PcdEncoding::kBinary:
       return detail::read_binary(body);
-    case PcdEncoding::kBinaryCompressed:
+    case detail::PcdEncoding::kBinaryCompressed:
       break;
   }
   return detail::read_compressed(body);

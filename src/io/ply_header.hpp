@@ -2,16 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "io/sweep_writer.hpp"
 #include "rilo/io/cloud_reader.hpp"
 
 namespace rilo::detail {
+
+enum class PlyEncoding : std::uint8_t { kAscii, kBinaryLittleEndian, kBinaryBigEndian };
 
 struct PlyProperty {
   std::string name;

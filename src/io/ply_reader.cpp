@@ -1,7 +1,5 @@
 // PLY: ascii, binary little and big endian. Only the element "vertex" is kept; what comes before it is skipped.
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <string>
 
 #include "io/cloud_columns.hpp"
@@ -208,7 +206,7 @@ RawCloud read_ply(const std::filesystem::path& file, const std::string& time_fie
   const detail::PlyBody body{bytes, header};
   const detail::PlyElement& vertex = detail::vertex_of(body);
   const detail::FieldRoles roles = detail::find_roles(detail::fields_of(vertex), time_field, file);
-  if (header.encoding == PlyEncoding::kAscii) return detail::read_ascii(body, vertex, roles);
+  if (header.encoding == detail::PlyEncoding::kAscii) return detail::read_ascii(body, vertex, roles);
   detail::BinaryCursor cursor(body);
   for (const detail::PlyElement& element : header.elements) {
     if (&element == &vertex) break;

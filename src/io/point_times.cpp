@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
+
+#include <fmt/format.h>
 
 #include "io/stamp_difference.hpp"
 #include "io/text.hpp"
@@ -50,11 +50,7 @@ bool is_measured(const Eigen::Vector3f& point) {
   return square > 0 && square <= std::numeric_limits<float>::max();
 }
 
-std::string number(double value) {
-  std::string text(32, '\0');
-  text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.10g", value)));
-  return text;
-}
+std::string number(double value) { return fmt::format("{:.10g}", value); }
 
 // One sweep's field and what can be said about it.
 class TimeField {

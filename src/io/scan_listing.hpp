@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rilo/io/io_error.hpp"
@@ -23,6 +26,9 @@ struct ScanListing {
   bool period_known = false;                          ///< info.period_s comes from stamps or meta.json
   double forward_after_s = 0;                         ///< from the stamp to the time when the sensor faces forward
 };
+
+/// Sweeps of these files, one file each.
+std::unique_ptr<ScanSource> open_files(ScanListing listing, const SourceOptions& options);
 
 /// KITTI sequence or drive simulator's folder: it has a subfolder velodyne.
 ScanListing list_sequence(const std::filesystem::path& folder, const SourceOptions& options);
@@ -52,7 +58,11 @@ SweepFiles find_sweep_files(const std::filesystem::path& folder, bool look_below
 std::string sweep_format(const std::filesystem::path& file);
 
 /// Numbers inside the names count as numbers: 2.bin comes before 10.bin.
-bool natural_less(const std::string& a, const std::string& b);
+void sort_naturally(std::vector<std::filesystem::path>& files);
+
+/// What lies in `folder` with one of the extensions (lower case), in natural order; nothing where it cannot be listed.
+std::vector<std::filesystem::path> files_with(const std::filesystem::path& folder,
+                                              std::initializer_list<std::string_view> extensions);
 
 /// Stamps of files named after them: 19 digits are ns, 16 are µs, decimals are seconds. Empty unless all files say so
 /// and the stamps increase.

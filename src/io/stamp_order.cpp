@@ -1,5 +1,4 @@
-#include "io/stamp_order.hpp"
-
+// Sweeps in the order of their stamps: what cannot be used is dropped and counted.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cloud/fingerprint.hpp"
+#include "io/source_wrappers.hpp"
 #include "io/stamp_difference.hpp"
 
 namespace rilo::detail {

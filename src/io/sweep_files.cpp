@@ -27,6 +27,25 @@ std::string_view take_number(std::string_view text, std::size_t& place) {
   return text.substr(begin, place - begin);
 }
 
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0;
+  std::size_t k = 0;
+  while (i < a.size() && k < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[k])) {
+      const std::string_view first = take_number(a, i);
+      const std::string_view second = take_number(b, k);
+      if (first.size() != second.size()) return first.size() < second.size();
+      if (first != second) return first < second;
+    } else {
+      if (a[i] != b[k]) return a[i] < b[k];
+      ++i;
+      ++k;
+    }
+  }
+  if ((i < a.size()) != (k < b.size())) return k < b.size();
+  return a < b;  // 1.bin and 01.bin: some order, always the same
+}
+
 struct FolderContent {
   std::array<std::vector<fs::path>, kFormats.size()> sweeps;
   std::size_t others = 0;
@@ -102,23 +121,21 @@ std::string sweep_format(const fs::path& file) {
   return {};
 }
 
-bool natural_less(const std::string& a, const std::string& b) {
-  std::size_t i = 0;
-  std::size_t k = 0;
-  while (i < a.size() && k < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[k])) {
-      const std::string_view first = take_number(a, i);
-      const std::string_view second = take_number(b, k);
-      if (first.size() != second.size()) return first.size() < second.size();
-      if (first != second) return first < second;
-    } else {
-      if (a[i] != b[k]) return a[i] < b[k];
-      ++i;
-      ++k;
-    }
+void sort_naturally(std::vector<fs::path>& files) {
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+}
+
+std::vector<fs::path> files_with(const fs::path& folder, std::initializer_list<std::string_view> extensions) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string extension = lower_case(entry->path().extension().string());
+    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) files.push_back(entry->path());
   }
-  if ((i < a.size()) != (k < b.size())) return k < b.size();
-  return a < b;  // 1.bin and 01.bin: some order, always the same
+  sort_naturally(files);
+  return files;
 }
 
 SweepFiles find_sweep_files(const fs::path& folder, bool look_below) {
@@ -136,9 +153,7 @@ SweepFiles find_sweep_files(const fs::path& folder, bool look_below) {
     throw IoError(
         {folder, "", counts + " files", "sweeps of one kind", "Move the other files into a folder of their own"});
   }
-  std::sort(found.files.begin(), found.files.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().string(), b.filename().string());
-  });
+  sort_naturally(found.files);
   return found;
 }
 

@@ -1,7 +1,6 @@
 // Per-point times of the sweeps of one source, as its options say.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -3,8 +3,7 @@
 #include <cstring>
 #include <limits>
 
-#include "io/ros/message_stamp.hpp"
-#include "io/ros/ros_covariance.hpp"
+#include "io/ros/ros_values.hpp"
 #include "io/unit_quaternion.hpp"
 
 namespace rilo {

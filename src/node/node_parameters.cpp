@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "config/config_keys.hpp"
 #include "config/nearest_word.hpp"
 #include "rilo/config/config_file.hpp"
 

@@ -79,9 +79,7 @@ void OdometrySession::set_pose(const SE3& T_odom_base) {
 
 Trajectory OdometrySession::path() const {
   Trajectory path = odometry_.trajectory();
-  for (StampedPose& pose : path) {
-    pose.T_odom_lidar = base_pose(pose.T_odom_lidar, T_base_lidar_, T_world_odom_);
-  }
+  for (StampedPose& pose : path) pose.T_odom_lidar = base_pose(pose.T_odom_lidar, T_base_lidar_, T_world_odom_);
   return path;
 }
 

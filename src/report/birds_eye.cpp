@@ -30,9 +30,7 @@ struct Grid {
   std::ptrdiff_t cell_of(const Eigen::Vector3f& p) const {
     const double column = std::floor((static_cast<double>(p.x()) - min_x) / cell_m);
     const double row = std::floor((static_cast<double>(p.y()) - min_y) / cell_m);
-    if (!(column >= 0 && row >= 0 && column < columns && row < rows)) {
-      return -1;
-    }
+    if (!(column >= 0 && row >= 0 && column < columns && row < rows)) return -1;
     return static_cast<std::ptrdiff_t>(row) * columns + static_cast<std::ptrdiff_t>(column);
   }
   std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
@@ -63,12 +61,8 @@ Box area_of(const std::vector<Eigen::Vector3f>& points, const std::vector<SE3>& 
     y.push_back(p.y());
   }
   Box box;
-  for (const double q : {0.004, 0.996}) {
-    box.include({quantile(x, q), quantile(y, q)});
-  }
-  for (const SE3& T : poses) {
-    box.include(T.translation().head<2>());
-  }
+  for (const double q : {0.004, 0.996}) box.include({quantile(x, q), quantile(y, q)});
+  for (const SE3& T : poses) box.include(T.translation().head<2>());
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(2.0);
   box.low -= margin;
   box.high += margin;
@@ -109,15 +103,11 @@ std::vector<float> low_heights(const std::vector<Eigen::Vector3f>& points, const
   std::vector<std::vector<float>> heights(grid.size());
   for (const Eigen::Vector3f& p : points) {
     const std::ptrdiff_t cell = grid.cell_of(p);
-    if (cell >= 0) {
-      heights[static_cast<std::size_t>(cell)].push_back(p.z());
-    }
+    if (cell >= 0) heights[static_cast<std::size_t>(cell)].push_back(p.z());
   }
   std::vector<float> low(grid.size(), kNoGround);
   for (std::size_t i = 0; i < low.size(); ++i) {
-    if (!heights[i].empty()) {
-      low[i] = quantile(heights[i], 0.1);
-    }
+    if (!heights[i].empty()) low[i] = quantile(heights[i], 0.1);
   }
   return low;
 }
@@ -130,17 +120,11 @@ std::vector<float> without_pits(const std::vector<float>& low, const Grid& grid)
   for (std::size_t i = 0; i < low.size(); ++i) {
     around.clear();
     for_neighbours(grid, i, [&](std::size_t j) {
-      if (j != i && low[j] != kNoGround) {
-        around.push_back(low[j]);
-      }
+      if (j != i && low[j] != kNoGround) around.push_back(low[j]);
     });
-    if (low[i] == kNoGround || around.size() < kWitnesses) {
-      continue;
-    }
+    if (low[i] == kNoGround || around.size() < kWitnesses) continue;
     const float usual = quantile(around, 0.5);
-    if (low[i] < usual - static_cast<float>(kSteepestSlope * grid.cell_m)) {
-      result[i] = usual;
-    }
+    if (low[i] < usual - static_cast<float>(kSteepestSlope * grid.cell_m)) result[i] = usual;
   }
   return result;
 }
@@ -199,9 +183,7 @@ std::optional<BirdsEyeMap> draw_birds_eye(const std::vector<Eigen::Vector3f>& po
   std::vector<Eigen::Vector3f> finite;
   std::copy_if(points.begin(), points.end(), std::back_inserter(finite),
                [](const Eigen::Vector3f& p) { return p.allFinite(); });
-  if (finite.empty()) {
-    return std::nullopt;
-  }
+  if (finite.empty()) return std::nullopt;
   const Box box = area_of(finite, poses);
   const Grid pixels = grid_over(box, pixel_size(box, finite.size()));
   const Grid cells = grid_over(box, std::max(kGroundCellM, 4.0 * pixels.cell_m));

@@ -1,12 +1,11 @@
-#include "chart_data.hpp"
-
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
 
 #include "birds_eye.hpp"
-#include "embedded_json.hpp"
 #include "figures.hpp"
+#include "html_sections.hpp"
+#include "html_text.hpp"
 
 namespace rilo {
 
@@ -17,9 +16,7 @@ using Json = nlohmann::json;
 template <typename Row, typename Value>
 Json column(const std::vector<Row>& rows, Value value) {
   Json result = Json::array();
-  for (const Row& row : rows) {
-    result.push_back(rounded(static_cast<double>(value(row))));
-  }
+  for (const Row& row : rows) result.push_back(rounded(static_cast<double>(value(row))));
   return result;
 }
 
@@ -39,34 +36,36 @@ Json errors(const std::vector<ErrorSample>& series) {
 }
 
 /// Names once, then one index per sweep.
-Json coded(const std::vector<ReportSweep>& sweeps, std::string ReportSweep::*text) {
+template <typename Word>
+Json coded(const std::vector<SweepResult>& sweeps, const Word& word) {
   std::vector<std::string> names;
   Json codes = Json::array();
-  for (const ReportSweep& sweep : sweeps) {
-    auto found = std::find(names.begin(), names.end(), sweep.*text);
-    if (found == names.end()) {
-      found = names.insert(names.end(), sweep.*text);
-    }
+  for (const SweepResult& sweep : sweeps) {
+    auto found = std::find(names.begin(), names.end(), to_string(word(sweep)));
+    if (found == names.end()) found = names.emplace(names.end(), to_string(word(sweep)));
     codes.push_back(found - names.begin());
   }
   return {{"names", names}, {"codes", codes}};
 }
 
 Json sweeps_of(const RunReport& run) {
-  const auto of = [&run](auto member) {
-    return column(run.sweeps, [member](const ReportSweep& s) { return s.*member; });
+  const auto stat = [&run](auto member) {
+    return column(run.sweeps, [member](const SweepResult& s) { return s.stats.*member; });
+  };
+  const auto time = [&run](double StageTimes::*stage) {
+    return column(run.sweeps, [stage](const SweepResult& s) { return s.stats.times.*stage; });
   };
   const TimingFigures t = timing_of(run.sweeps);
-  return {{"total", of(&ReportSweep::total_ms)},
-          {"stages", Json::array({Json::array({"preprocessing", of(&ReportSweep::preprocess_ms)}),
-                                  Json::array({"initial pose", of(&ReportSweep::coarse_ms)}),
-                                  Json::array({"registration", of(&ReportSweep::registration_ms)}),
-                                  Json::array({"map update", of(&ReportSweep::map_ms)})})},
-          {"iterations", of(&ReportSweep::iterations)},
-          {"inliers", of(&ReportSweep::inlier_ratio)},
-          {"sigma", of(&ReportSweep::sigma_th_m)},
-          {"status", coded(run.sweeps, &ReportSweep::status)},
-          {"initial", coded(run.sweeps, &ReportSweep::initial_pose)},
+  return {{"total", time(&StageTimes::total_ms)},
+          {"stages", Json::array({Json::array({"preprocessing", time(&StageTimes::preprocess_ms)}),
+                                  Json::array({"initial pose", time(&StageTimes::initial_pose_ms)}),
+                                  Json::array({"registration", time(&StageTimes::registration_ms)}),
+                                  Json::array({"map update", time(&StageTimes::map_ms)})})},
+          {"iterations", stat(&SweepStats::iterations)},
+          {"inliers", stat(&SweepStats::inlier_ratio)},
+          {"sigma", stat(&SweepStats::sigma_th_m)},
+          {"status", coded(run.sweeps, [](const SweepResult& s) { return s.status; })},
+          {"initial", coded(run.sweeps, [](const SweepResult& s) { return s.stats.initial_pose; })},
           {"median", rounded(t.median_ms)},
           {"p95", rounded(t.p95_ms)},
           {"p99", rounded(t.p99_ms)},
@@ -76,13 +75,9 @@ Json sweeps_of(const RunReport& run) {
 
 Json map_of(const RunReport& run) {
   const std::optional<BirdsEyeMap> map = draw_birds_eye(run.map_points, run.estimate);
-  if (!map) {
-    return nullptr;
-  }
+  if (!map) return nullptr;
   Json colours = Json::array();
-  for (const Rgba& c : map_colours()) {
-    colours.push_back({c[0], c[1], c[2]});
-  }
+  for (const Rgba& c : map_colours()) colours.push_back({c[0], c[1], c[2]});
   return {{"url", png_data_url(map->image)},
           {"width", map->image.width},
           {"height", map->image.height},

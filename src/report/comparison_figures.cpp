@@ -52,9 +52,7 @@ const std::vector<ComparisonFigure>& comparison_figures() {
 std::optional<double> value_of(const RunReport& run, const ComparisonFigure& figure) {
   std::optional<double> value = figure.of(run);
   const auto recorded = run.recorded.find(figure.what.key);
-  if (!value && recorded != run.recorded.end()) {
-    value = recorded->second;
-  }
+  if (!value && recorded != run.recorded.end()) value = recorded->second;
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
@@ -68,9 +66,7 @@ std::vector<std::pair<std::string, std::vector<std::size_t>>> by_sequence(const 
   for (std::size_t i = 0; i < runs.size(); ++i) {
     auto known =
         std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.first == runs[i].sequence; });
-    if (known == groups.end()) {
-      known = groups.insert(groups.end(), {runs[i].sequence, {}});
-    }
+    if (known == groups.end()) known = groups.insert(groups.end(), {runs[i].sequence, {}});
     known->second.push_back(i);
   }
   return groups;
@@ -79,15 +75,11 @@ std::vector<std::pair<std::string, std::vector<std::size_t>>> by_sequence(const 
 ExperimentReport experiment_of(const std::vector<RunReport>& runs) {
   ExperimentReport experiment;
   experiment.title = "All sequences";
-  for (const ComparisonFigure& figure : comparison_figures()) {
-    experiment.figures.push_back(figure.what);
-  }
+  for (const ComparisonFigure& figure : comparison_figures()) experiment.figures.push_back(figure.what);
   for (const RunReport& run : runs) {
     ExperimentCell cell{run.sequence, name_of(run), false, {}, ""};
     for (const ComparisonFigure& figure : comparison_figures()) {
-      if (const auto value = value_of(run, figure)) {
-        cell.figures[figure.what.key] = *value;
-      }
+      if (const auto value = value_of(run, figure)) cell.figures[figure.what.key] = *value;
     }
     experiment.cells.push_back(cell);
   }

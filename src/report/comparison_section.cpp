@@ -1,12 +1,8 @@
-#include "comparison_section.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "comparison_figures.hpp"
-#include "embedded_json.hpp"
-#include "experiment_section.hpp"
 #include "figure_table.hpp"
 #include "figures.hpp"
 #include "html_sections.hpp"
@@ -26,32 +22,26 @@ std::string swatch(std::size_t place) { return fmt::format("<i class=\"swatch r{
 std::string statuses(const RunReport& run) {
   std::string text;
   for (const auto& [status, count] : status_counts(run.sweeps)) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, status.empty() ? "without status" : status);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, status);
   }
   return text.empty() ? "–" : escaped(text);
 }
 
 std::string figures_panel(const std::vector<RunReport>& runs, const Places& places) {
   std::vector<ExperimentFigure> columns = {{"", "Sweeps", "", 0}, {"", "True path", "m", 1}};
-  for (const ComparisonFigure& figure : comparison_figures()) {
-    columns.push_back(figure.what);
-  }
+  for (const ComparisonFigure& figure : comparison_figures()) columns.push_back(figure.what);
   std::vector<FigureRow> rows;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const RunReport& run = runs[places[k]];
     FigureRow row{swatch(k) + escaped(name_of(run)), {}, statuses(run)};
     row.values.emplace_back(static_cast<double>(run.estimate.size()));
     row.values.push_back(run.evaluation ? std::optional(run.evaluation->path_m) : std::nullopt);
-    for (const ComparisonFigure& figure : comparison_figures()) {
-      row.values.push_back(value_of(run, figure));
-    }
+    for (const ComparisonFigure& figure : comparison_figures()) row.values.push_back(value_of(run, figure));
     rows.push_back(row);
   }
   return "<section class=\"panel full\"><h3>Runs compared</h3><p class=\"caption\">The best of each column is bold. "
-         "APE "
-         "rmse after SE(3) alignment, as papers print it; unaligned and end error with the first poses made equal; "
-         "t_rel "
-         "and r_rel as the KITTI devkit.</p>" +
+         "APE rmse after SE(3) alignment, as papers print it; unaligned and end error with the first poses made equal; "
+         "t_rel and r_rel as the KITTI devkit.</p>" +
          figure_table("run", columns, rows, "status of the sweeps", 2) + "</section>\n";
 }
 
@@ -89,9 +79,7 @@ bool any_of(const std::vector<RunReport>& runs, const Places& places, const Is& 
 }
 
 std::string accuracy_panels(const std::vector<RunReport>& runs, const Places& places) {
-  if (!any_of(runs, places, [](const RunReport& run) { return run.evaluation.has_value(); })) {
-    return "";
-  }
+  if (!any_of(runs, places, [](const RunReport& run) { return run.evaluation.has_value(); })) return "";
   std::string html = chart_panel("patherror", "side", "Error along the path",
                                  "Distance to the true position, first poses made equal.");
   html += chart_panel("trel", "half", "Translation drift by segment length",
@@ -144,12 +132,8 @@ std::string sequence_article(const std::vector<RunReport>& runs, const std::stri
 std::string comparison_sections(const std::vector<RunReport>& runs) {
   const auto groups = by_sequence(runs);
   std::string html;
-  if (groups.size() > 1) {
-    html += experiment_section(experiment_of(runs));
-  }
-  for (const auto& [sequence, places] : groups) {
-    html += sequence_article(runs, sequence, places);
-  }
+  if (groups.size() > 1) html += experiment_section(experiment_of(runs));
+  for (const auto& [sequence, places] : groups) html += sequence_article(runs, sequence, places);
   return html;
 }
 

@@ -1,8 +1,5 @@
-#include "experiment_section.hpp"
-
 #include <fmt/format.h>
 
-#include "embedded_json.hpp"
 #include "experiment_table.hpp"
 #include "figure_table.hpp"
 #include "html_sections.hpp"
@@ -23,13 +20,9 @@ std::vector<ExperimentFigure> figures_there(const ExperimentReport& experiment) 
     const ExperimentTable table(experiment, figure.key);
     bool any = false;
     for (std::size_t s = 0; s < table.sequences().size(); ++s) {
-      for (std::size_t k = 0; k < table.configurations().size(); ++k) {
-        any = any || table.at(s, k);
-      }
+      for (std::size_t k = 0; k < table.configurations().size(); ++k) any = any || table.at(s, k);
     }
-    if (any) {
-      figures.push_back(figure);
-    }
+    if (any) figures.push_back(figure);
   }
   return figures;
 }
@@ -39,15 +32,11 @@ Json figure_data(const ExperimentReport& experiment, const ExperimentFigure& fig
   Json values = Json::array();
   for (std::size_t s = 0; s < table.sequences().size(); ++s) {
     Json row = Json::array();
-    for (std::size_t k = 0; k < table.configurations().size(); ++k) {
-      row.push_back(or_null(table.at(s, k)));
-    }
+    for (std::size_t k = 0; k < table.configurations().size(); ++k) row.push_back(or_null(table.at(s, k)));
     values.push_back(row);
   }
   Json means = Json::array();
-  for (std::size_t k = 0; k < table.configurations().size(); ++k) {
-    means.push_back(or_null(table.mean(k)));
-  }
+  for (std::size_t k = 0; k < table.configurations().size(); ++k) means.push_back(or_null(table.mean(k)));
   return {{"title", figure.title}, {"unit", figure.unit}, {"digits", figure.digits},
           {"values", values},      {"means", means},      {"common", table.common_sequences()}};
 }
@@ -58,9 +47,7 @@ Json experiment_data(const ExperimentReport& experiment, const std::vector<Exper
             {"configurations", names.configurations()},
             {"figures", Json::array()},
             {"sensitivities", Json::array()}};
-  for (const ExperimentFigure& figure : figures) {
-    data["figures"].push_back(figure_data(experiment, figure));
-  }
+  for (const ExperimentFigure& figure : figures) data["figures"].push_back(figure_data(experiment, figure));
   for (const SensitivitySeries& series : experiment.sensitivities) {
     data["sensitivities"].push_back({{"key", series.key}, {"points", series.points}, {"base", series.base}});
   }
@@ -72,9 +59,7 @@ std::string means_panel(const ExperimentReport& experiment, const std::vector<Ex
   for (const ExperimentFigure& figure : figures) {
     const ExperimentTable table(experiment, figure.key);
     for (std::size_t k = 0; k < table.configurations().size(); ++k) {
-      if (rows.size() <= k) {
-        rows.push_back({escaped(table.configurations()[k]), {}, ""});
-      }
+      if (rows.size() <= k) rows.push_back({escaped(table.configurations()[k]), {}, ""});
       rows[k].values.push_back(table.mean(k));
     }
   }
@@ -92,15 +77,11 @@ std::string sequence_tables(const ExperimentReport& experiment, const std::vecto
   for (const ExperimentFigure& figure : figures) {
     const ExperimentTable table(experiment, figure.key);
     std::vector<ExperimentFigure> columns;
-    for (const std::string& sequence : table.sequences()) {
-      columns.push_back({"", sequence, "", figure.digits});
-    }
+    for (const std::string& sequence : table.sequences()) columns.push_back({"", sequence, "", figure.digits});
     std::vector<FigureRow> rows;
     for (std::size_t k = 0; k < table.configurations().size(); ++k) {
       FigureRow row{escaped(table.configurations()[k]), {}, ""};
-      for (std::size_t s = 0; s < table.sequences().size(); ++s) {
-        row.values.push_back(table.at(s, k));
-      }
+      for (std::size_t s = 0; s < table.sequences().size(); ++s) row.values.push_back(table.at(s, k));
       rows.push_back(row);
     }
     html += fmt::format("<h3>{}{}</h3>", escaped(figure.title), figure.unit.empty() ? "" : ", " + escaped(figure.unit));
@@ -117,9 +98,7 @@ std::string failures(const ExperimentReport& experiment) {
               "</td><td>" + escaped(cell.error) + "</td></tr>\n";
     }
   }
-  if (rows.empty()) {
-    return "";
-  }
+  if (rows.empty()) return "";
   return "<section class=\"panel full\"><h3>Failed</h3><div class=\"scroll\" tabindex=\"0\"><table><thead><tr>"
          "<th scope=\"col\">sequence</th><th scope=\"col\">configuration</th><th scope=\"col\">why</th></tr></thead>"
          "<tbody>\n" +

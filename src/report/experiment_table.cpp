@@ -10,9 +10,7 @@ namespace {
 std::size_t place_of(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   const auto place = static_cast<std::size_t>(found - names.begin());
-  if (found == names.end()) {
-    names.push_back(name);
-  }
+  if (found == names.end()) names.push_back(name);
   return place;
 }
 
@@ -36,23 +34,15 @@ ExperimentTable::ExperimentTable(const ExperimentReport& experiment, const std::
 void ExperimentTable::find_common() {
   std::vector<bool> has(configurations_.size(), false);
   for (const auto& row : values_) {
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      has[k] = has[k] || row[k];
-    }
+    for (std::size_t k = 0; k < row.size(); ++k) has[k] = has[k] || row[k];
   }
   std::vector<double> sums(configurations_.size(), 0.0);
   for (const auto& row : values_) {
     bool complete = std::find(has.begin(), has.end(), true) != has.end();
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      complete = complete && (row[k] || !has[k]);
-    }
-    if (!complete) {
-      continue;
-    }
+    for (std::size_t k = 0; k < row.size(); ++k) complete = complete && (row[k] || !has[k]);
+    if (!complete) continue;
     ++common_;
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      sums[k] += row[k].value_or(0.0);
-    }
+    for (std::size_t k = 0; k < row.size(); ++k) sums[k] += row[k].value_or(0.0);
   }
   for (std::size_t k = 0; k < sums.size(); ++k) {
     means_.push_back(has[k] && common_ > 0 ? std::optional(sums[k] / static_cast<double>(common_)) : std::nullopt);

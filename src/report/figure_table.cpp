@@ -39,9 +39,7 @@ std::string figure_table(const std::string& corner, const std::vector<Experiment
   std::vector<Column> shown;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     shown.push_back(column_of(rows, i, columns[i].digits));
-    if (i < unranked) {
-      shown.back().best.clear();
-    }
+    if (i < unranked) shown.back().best.clear();
   }
   std::string html =
       "<div class=\"scroll\" tabindex=\"0\"><table class=\"numbers\"><thead><tr><th scope=\"col\">" + corner + "</th>";

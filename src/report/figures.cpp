@@ -16,9 +16,7 @@ namespace {
 /// Number and lengths of the segments behind t_rel.
 std::string segments_of(const KittiError& kitti) {
   const std::vector<KittiLengthError> rows = kitti.per_length();
-  if (rows.empty()) {
-    return "no segment: the path is too short";
-  }
+  if (rows.empty()) return "no segment: the path is too short";
   const int digits = kitti.short_path ? 1 : 0;
   return fmt::format("{} segments of {} … {} m", kitti.segments.size(), number(rows.front().length_m, digits),
                      number(rows.back().length_m, digits));
@@ -36,9 +34,7 @@ void add_accuracy(const Evaluation& e, std::vector<Figure>& figures) {
 
 void add_speed(const RunReport& run, std::vector<Figure>& figures) {
   const TimingFigures t = timing_of(run.sweeps);
-  if (t.max_ms <= 0.0) {
-    return;
-  }
+  if (t.max_ms <= 0.0) return;
   figures.push_back({"Sweep time", number(t.median_ms, 1), "ms",
                      fmt::format("median; p99 {} ms, max {} ms", number(t.p99_ms, 1), number(t.max_ms, 1))});
   figures.push_back(
@@ -48,18 +44,16 @@ void add_speed(const RunReport& run, std::vector<Figure>& figures) {
 
 }  // namespace
 
-TimingFigures timing_of(const std::vector<ReportSweep>& sweeps) {
+TimingFigures timing_of(const std::vector<SweepResult>& sweeps) {
   std::vector<double> ms;
   double sum = 0;
-  for (const ReportSweep& sweep : sweeps) {
-    if (std::isfinite(sweep.total_ms)) {
-      ms.push_back(sweep.total_ms);
-      sum += sweep.total_ms;
-    }
+  for (const SweepResult& sweep : sweeps) {
+    const double total_ms = sweep.stats.times.total_ms;
+    if (!std::isfinite(total_ms)) continue;
+    ms.push_back(total_ms);
+    sum += total_ms;
   }
-  if (ms.empty()) {
-    return {};
-  }
+  if (ms.empty()) return {};
   std::sort(ms.begin(), ms.end());
   return {sum / static_cast<double>(ms.size()), percentile(ms, 0.5), percentile(ms, 0.95), percentile(ms, 0.99),
           ms.back()};
@@ -67,9 +61,7 @@ TimingFigures timing_of(const std::vector<ReportSweep>& sweeps) {
 
 std::vector<Figure> headline_figures(const RunReport& run) {
   std::vector<Figure> figures;
-  if (run.evaluation) {
-    add_accuracy(*run.evaluation, figures);
-  }
+  if (run.evaluation) add_accuracy(*run.evaluation, figures);
   add_speed(run, figures);
   if (run.peak_rss_mb > 0.0) {
     figures.push_back({"Peak memory", number(run.peak_rss_mb, 0), "MB", "resident set of the whole process"});
@@ -81,16 +73,13 @@ std::vector<Figure> headline_figures(const RunReport& run) {
   return figures;
 }
 
-std::vector<std::pair<std::string, std::size_t>> status_counts(const std::vector<ReportSweep>& sweeps) {
+std::vector<std::pair<std::string, std::size_t>> status_counts(const std::vector<SweepResult>& sweeps) {
   std::vector<std::pair<std::string, std::size_t>> counts;
-  for (const ReportSweep& sweep : sweeps) {
-    const auto known =
-        std::find_if(counts.begin(), counts.end(), [&sweep](const auto& entry) { return entry.first == sweep.status; });
-    if (known == counts.end()) {
-      counts.emplace_back(sweep.status, 1);
-    } else {
-      ++known->second;
-    }
+  for (const SweepResult& sweep : sweeps) {
+    const std::string_view name = to_string(sweep.status);
+    auto known = std::find_if(counts.begin(), counts.end(), [&](const auto& entry) { return entry.first == name; });
+    if (known == counts.end()) known = counts.emplace(counts.end(), name, 0);
+    ++known->second;
   }
   return counts;
 }

@@ -18,7 +18,7 @@ struct TimingFigures {
   double max_ms = 0;
 };
 /// All zero without sweeps. Percentiles interpolate linearly between the two nearest ranks.
-TimingFigures timing_of(const std::vector<ReportSweep>& sweeps);
+TimingFigures timing_of(const std::vector<SweepResult>& sweeps);
 
 /// One headline figure. Plain text, not escaped yet.
 struct Figure {
@@ -31,6 +31,6 @@ struct Figure {
 std::vector<Figure> headline_figures(const RunReport& run);
 
 /// Status names with their number of sweeps, in order of first appearance.
-std::vector<std::pair<std::string, std::size_t>> status_counts(const std::vector<ReportSweep>& sweeps);
+std::vector<std::pair<std::string, std::size_t>> status_counts(const std::vector<SweepResult>& sweeps);
 
 }  // namespace rilo

@@ -1,14 +1,11 @@
 #include "report/html_report.hpp"
 
-#include <ostream>
 #include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "assets.hpp"
-#include "comparison_section.hpp"
-#include "experiment_section.hpp"
 #include "html_sections.hpp"
 #include "html_text.hpp"
 
@@ -35,15 +32,9 @@ void check(const RunReport& run) {
 
 /// Escaped.
 std::string page_title(const ReportPage& page) {
-  if (!page.title.empty()) {
-    return escaped(page.title);
-  }
-  if (page.runs.size() > 1) {
-    return fmt::format("{} runs compared", page.runs.size());
-  }
-  if (page.runs.empty()) {
-    return page.experiments.size() > 1 ? "Experiments" : "Experiment";
-  }
+  if (!page.title.empty()) return escaped(page.title);
+  if (page.runs.size() > 1) return fmt::format("{} runs compared", page.runs.size());
+  if (page.runs.empty()) return page.experiments.size() > 1 ? "Experiments" : "Experiment";
   return title_of(page.runs.front());
 }
 
@@ -60,48 +51,31 @@ std::string head(const std::string& title) {
 
 std::string page_header(const ReportPage& page, const std::string& title) {
   std::string html = "<header class=\"page\"><h1>" + title + "</h1>\n";
-  for (const std::string& notice : page.notices) {
-    html += "<p class=\"notice\">" + escaped(notice) + "</p>\n";
-  }
+  for (const std::string& notice : page.notices) html += "<p class=\"notice\">" + escaped(notice) + "</p>\n";
   return html + "</header>\n";
 }
 
 }  // namespace
 
-void write_html_report(const RunReport& run, std::ostream& out) {
-  write_html_report(ReportPage{"", {}, {run}, {}}, out);
-}
-
-void write_html_report(const std::vector<RunReport>& runs, std::ostream& out) {
-  write_html_report(ReportPage{"", {}, runs, {}}, out);
-}
-
-void write_html_report(const ReportPage& page, std::ostream& out) {
+std::string html_report(const ReportPage& page) {
   if (page.runs.empty() && page.experiments.empty()) {
     throw std::invalid_argument("a report needs at least one run or experiment");
   }
-  for (const RunReport& run : page.runs) {
-    check(run);
-  }
+  for (const RunReport& run : page.runs) check(run);
   const std::string title = page_title(page);
   const bool single = page.runs.size() == 1 && page.experiments.empty();
-  out << head(title) << "<p class=\"brand\">Rilo · LiDAR odometry report</p>\n";
-  if (!single || !page.notices.empty() || !page.title.empty()) {
-    out << page_header(page, title);
-  }
+  std::string html = head(title) + "<p class=\"brand\">Rilo · LiDAR odometry report</p>\n";
+  if (!single || !page.notices.empty() || !page.title.empty()) html += page_header(page, title);
   if (page.runs.size() > 1) {
-    out << comparison_sections(page.runs);
+    html += comparison_sections(page.runs);
   } else if (!page.runs.empty()) {
-    out << run_section(page.runs.front());
+    html += run_section(page.runs.front());
   }
-  for (const ExperimentReport& experiment : page.experiments) {
-    out << experiment_section(experiment);
-  }
-  if (page.runs.size() > 1) {
-    out << folded_runs(page.runs);
-  }
-  out << "<noscript><p>The charts need JavaScript; figures and tables do not.</p></noscript>\n</main>\n<script>\n"
-      << kReportJs << "</script>\n</body>\n</html>\n";
+  for (const ExperimentReport& experiment : page.experiments) html += experiment_section(experiment);
+  if (page.runs.size() > 1) html += folded_runs(page.runs);
+  return html +
+         "<noscript><p>The charts need JavaScript; figures and tables do not.</p></noscript>\n</main>\n<script>\n" +
+         kReportJs + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace rilo

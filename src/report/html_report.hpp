@@ -1,7 +1,6 @@
 // One self-contained HTML file about one run, several, or experiments.
 #pragma once
 
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -19,16 +18,10 @@ struct ReportPage {
   std::vector<ExperimentReport> experiments;
 };
 
-/// Writes a complete HTML page: no network, no other file, light and dark, for screen and print. The caller checks the
-/// stream. A single run is shown as it is; several are compared, and each one's own page is folded below.
+/// A complete HTML page: no network, no other file, light and dark, for screen and print. A single run is shown as it
+/// is; several are compared, and each one's own page is folded below.
 /// @throws std::invalid_argument when there is neither a run nor an experiment, when a run's `sweeps` is neither empty
 /// nor as long as `estimate`, or a pose is not finite.
-void write_html_report(const ReportPage& page, std::ostream& out);
-
-/// The page of one run. @throws as above.
-void write_html_report(const RunReport& run, std::ostream& out);
-
-/// The page that compares several. @throws as above.
-void write_html_report(const std::vector<RunReport>& runs, std::ostream& out);
+std::string html_report(const ReportPage& page);
 
 }  // namespace rilo

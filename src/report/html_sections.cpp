@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "chart_data.hpp"
 #include "figures.hpp"
 #include "html_text.hpp"
 
@@ -31,27 +30,21 @@ std::string summary_line(const RunReport& run) {
     text += fmt::format(" · {} m{}", number(path_m, 1), run.evaluation ? " of true path" : "");
   }
   for (const auto& [status, count] : status_counts(run.sweeps)) {
-    text += fmt::format(" · {} {}", count, status.empty() ? "without status" : status);
+    text += fmt::format(" · {} {}", count, status);
   }
   return escaped(text);
 }
 
 std::string header(const RunReport& run) {
   std::string html = fmt::format("<header><h2>{}</h2>\n", title_of(run));
-  if (!run.dataset.empty()) {
-    html += fmt::format("<p class=\"dataset\">{}</p>\n", escaped(run.dataset));
-  }
+  if (!run.dataset.empty()) html += fmt::format("<p class=\"dataset\">{}</p>\n", escaped(run.dataset));
   html += fmt::format("<p class=\"summary\">{}</p>\n", summary_line(run));
-  if (!run.notice.empty()) {
-    html += fmt::format("<p class=\"notice\">{}</p>\n", escaped(run.notice));
-  }
+  if (!run.notice.empty()) html += fmt::format("<p class=\"notice\">{}</p>\n", escaped(run.notice));
   return html + "</header>\n";
 }
 
 std::string error_row(const char* name, const char* unit, const ErrorSummary& s, int digits) {
-  if (s.count == 0) {
-    return "";
-  }
+  if (s.count == 0) return "";
   return fmt::format(
       "<tr><th>{} <span class=\"unit\">{}</span></th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", name, unit,
       number(s.rmse, digits), number(s.mean, digits), number(s.median, digits), number(s.max, digits));
@@ -78,22 +71,17 @@ std::string segment_panel(const KittiError& kitti) {
   const std::vector<KittiLengthError> rows = kitti.per_length();
   std::string html =
       "<section class=\"panel half\"><h3>Drift by segment length</h3><p class=\"caption\">KITTI devkit: starts every "
-      "10 "
-      "sweeps.";
+      "10 sweeps.";
   html += kitti.short_path ? " The path is below 150 m, so the lengths are eighths of 80 % of it." : "";
   html += "</p>";
-  if (rows.empty()) {
-    return html + "<p>The path is too short for any segment.</p></section>\n";
-  }
+  if (rows.empty()) return html + "<p>The path is too short for any segment.</p></section>\n";
   html +=
       "<div class=\"scroll\" tabindex=\"0\"><table class=\"numbers\"><thead><tr><th>length <span "
       "class=\"unit\">m</span></th>"
       "<th>segments</th><th>t_rel <span class=\"unit\">%</span></th><th class=\"bar\"></th>"
       "<th>r_rel <span class=\"unit\">°/100 m</span></th></tr></thead><tbody>\n";
   double largest = 1e-12;
-  for (const KittiLengthError& row : rows) {
-    largest = std::max(largest, row.t_rel_pct);
-  }
+  for (const KittiLengthError& row : rows) largest = std::max(largest, row.t_rel_pct);
   for (const KittiLengthError& row : rows) {
     html += fmt::format(
         "<tr><th>{}</th><td>{}</td><td>{}</td><td class=\"bar\"><i style=\"width:{:.1f}%\"></i></td><td>{}</td></tr>\n",
@@ -142,9 +130,7 @@ std::string chart_panel(const char* chart, const char* size, const char* heading
 }
 
 std::string facts_panel(const std::vector<std::pair<std::string, std::string>>& facts) {
-  if (facts.empty()) {
-    return "";
-  }
+  if (facts.empty()) return "";
   std::string html =
       "<section class=\"panel full\"><h3>How this was made</h3><p class=\"caption\">Everything needed to repeat it."
       "</p><table class=\"facts\"><tbody>\n";

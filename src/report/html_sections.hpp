@@ -1,16 +1,30 @@
-// The parts of the page about one run.
+// The parts of the page.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "report/experiment_report.hpp"
 #include "report/run_report.hpp"
 
 namespace rilo {
 
 /// One run from its title to its facts.
 std::string run_section(const RunReport& run);
+
+/// A <script> element with the JSON that the charts of a run draw from: columns of numbers, rounded to what a picture
+/// can show.
+std::string chart_data(const RunReport& run);
+
+/// Comparison of runs: with several sequences an overview of all; then, sequence by sequence, table and charts.
+std::string comparison_sections(const std::vector<RunReport>& runs);
+
+/// Each run's own section, folded. The charts of comparison_sections draw from the data in them.
+std::string folded_runs(const std::vector<RunReport>& runs);
+
+/// One experiment: bars by sequence, sensitivity, tables, failures.
+std::string experiment_section(const ExperimentReport& experiment);
 
 /// The title, or a plain one when it is empty; escaped.
 std::string title_of(const RunReport& run);

@@ -11,22 +11,9 @@
 
 #include "rilo/evaluation/evaluation.hpp"
 #include "rilo/geometry/se3.hpp"
+#include "rilo/odometry/sweep_result.hpp"
 
 namespace rilo {
-
-/// Statistics of one sweep. Times in ms; stage times may stay zero when only the total is known.
-struct ReportSweep {
-  double total_ms = 0;
-  double preprocess_ms = 0;
-  double coarse_ms = 0;  ///< coarse registration and choice of the initial pose
-  double registration_ms = 0;
-  double map_ms = 0;
-  int iterations = 0;
-  double inlier_ratio = 0;  ///< correspondences per source point
-  double sigma_th_m = 0;
-  std::string status;        ///< ok, initialising, degenerate, …: as to_string(OdometryStatus) names them
-  std::string initial_pose;  ///< identity, prediction or coarse
-};
 
 /// Everything about one run. Text may hold any characters; it is escaped.
 struct RunReport {
@@ -39,7 +26,7 @@ struct RunReport {
       facts;                        ///< command, configuration, corrections, pose instant, threads …
   std::vector<SE3> estimate;        ///< T_odom_lidar, one per sweep (x forward, y left, z up)
   std::vector<SE3> truth;           ///< empty, or true poses in the same frame (equal first poses); any length
-  std::vector<ReportSweep> sweeps;  ///< empty, or one per pose of `estimate`
+  std::vector<SweepResult> sweeps;  ///< empty, or one per pose of `estimate`; only their statistics are shown
   std::optional<Evaluation> evaluation;
   /// Figures found before, for what can no longer be computed (the truth is gone): see ComparisonFigure::key.
   std::map<std::string, double> recorded;

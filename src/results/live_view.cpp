@@ -1,6 +1,7 @@
 #include "results/live_view.hpp"
 
 #include <iostream>
+#include <limits>
 #include <utility>
 
 #include "console/interrupt.hpp"
@@ -14,9 +15,9 @@ namespace rilo {
 namespace {
 
 // Prints the address on standard error, even in a quiet run: it cannot be found otherwise.
-std::unique_ptr<Viewer> open_viewer(const ViewInfo& info, const ViewOptions& options) {
+std::unique_ptr<Viewer> announced_viewer(const ViewInfo& info, const ViewOptions& options) {
   try {
-    auto viewer = std::make_unique<Viewer>(info, options);
+    auto viewer = open_viewer(info, options);
     std::cerr << "rilo: viewer at " << viewer->url() << std::endl;
     return viewer;
   } catch (const IoError& error) {
@@ -24,11 +25,14 @@ std::unique_ptr<Viewer> open_viewer(const ViewInfo& info, const ViewOptions& opt
   }
 }
 
+constexpr double kNearM = 30.0;  // of a point of the map
+constexpr double kPoseStepM = 2.0;
+
 }  // namespace
 
 TruthTrack::TruthTrack(const std::filesystem::path& data) {
   try {
-    auto truth = read_ground_truth(data, TruthInstant::kMid);
+    auto truth = read_ground_truth(data, PoseInstant::kMid);
     if (truth) T_world_lidar_ = std::move(truth->T_world_lidar);
   } catch (const IoError&) {
     // The run itself reports what is wrong with it.
@@ -43,7 +47,7 @@ std::optional<Eigen::Vector3d> TruthTrack::at(std::size_t index, const SE3& esti
 }
 
 LiveView::LiveView(const ViewInfo& info, const ViewOptions& options, std::optional<TruthTrack> truth)
-    : live_(info.live), truth_(std::move(truth)), viewer_(open_viewer(info, options)) {}
+    : live_(info.live), truth_(std::move(truth)), viewer_(announced_viewer(info, options)) {}
 
 LiveView::~LiveView() {
   const std::string why = viewer_->failure();
@@ -57,11 +61,7 @@ void LiveView::show(std::size_t index, const SweepResult& result, Sweep sweep) {
   if (truth_) view.truth = truth_->at(index, result.T_odom_lidar);
   view.full_covariance = live_;
   view.sweep = std::move(sweep);
-  if (live_) {
-    viewer_->push(std::move(view));
-  } else {
-    viewer_->push_all(std::move(view));
-  }
+  viewer_->push(std::move(view), !live_);
 }
 
 void LiveView::show_missing(ScanSource& source, const RunRecord& run) {
@@ -95,6 +95,32 @@ ViewInfo view_info(const std::string& data, const OdometryConfig& config) {
   info.min_range_m = config.preprocess.min_range_m;
   info.max_range_m = config.preprocess.max_range_m;
   return info;
+}
+
+std::vector<std::uint32_t> first_seen(const std::vector<Eigen::Vector3f>& points,
+                                      const std::vector<SweepResult>& results) {
+  std::vector<std::pair<Eigen::Vector3f, std::uint32_t>> places;  // every few metres
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const Eigen::Vector3f place = results[i].T_odom_lidar.translation().cast<float>();
+    if (!places.empty() && (place - places.back().first).norm() < static_cast<float>(kPoseStepM)) continue;
+    places.emplace_back(place, static_cast<std::uint32_t>(i));
+  }
+  std::vector<std::uint32_t> seen;
+  seen.reserve(points.size());
+  for (const Eigen::Vector3f& point : points) {
+    float nearest = std::numeric_limits<float>::max();
+    std::uint32_t sweep = 0;
+    for (const auto& [place, number] : places) {
+      const float distance = (place - point).squaredNorm();
+      if (distance < nearest) {
+        nearest = distance;
+        sweep = number;
+      }
+      if (distance < static_cast<float>(kNearM * kNearM)) break;
+    }
+    seen.push_back(sweep);
+  }
+  return seen;
 }
 
 }  // namespace rilo

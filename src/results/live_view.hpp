@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -59,5 +60,10 @@ class LiveView {
 
 /// What both kinds have in common.
 ViewInfo view_info(const std::string& data, const OdometryConfig& config);
+
+/// For each point of a map the first of `results` that was near it, or the nearest one: the order in which a finished
+/// run saw its map.
+std::vector<std::uint32_t> first_seen(const std::vector<Eigen::Vector3f>& points,
+                                      const std::vector<SweepResult>& results);
 
 }  // namespace rilo

@@ -1,7 +1,10 @@
 #include "results/metrics_json.hpp"
 
+#include <fstream>
 #include <type_traits>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "console/text.hpp"
 #include "rilo/io/io_error.hpp"
@@ -247,6 +250,24 @@ nlohmann::json to_json(const RunMetrics& metrics, MetricKeys keys) {
 nlohmann::json to_json(const EvaluationMetrics& metrics) { return json_of(metrics, MetricKeys::kAll); }
 
 nlohmann::json to_json(const StampFaults& faults) { return json_of(faults, MetricKeys::kAll); }
+
+nlohmann::json read_json_object(const std::filesystem::path& file, const std::string& expected,
+                                const std::string& remedy) {
+  std::error_code ignored;
+  std::ifstream stream(file, std::ios::binary);
+  if (!std::filesystem::is_regular_file(file, ignored) || !stream) {
+    throw IoError({file, "", "no file that can be read", expected, remedy});
+  }
+  nlohmann::json json;
+  try {
+    json = nlohmann::json::parse(stream);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw IoError({file, fmt::format("byte {}", error.byte), "this is not JSON", expected, ""});
+  }
+  if (!json.is_object())
+    throw IoError({file, "", std::string("JSON of another kind, ") + json.type_name(), expected, ""});
+  return json;
+}
 
 RunMetrics metrics_of(const nlohmann::json& json, const std::filesystem::path& file) {
   RunMetrics metrics;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "io/file_bytes.hpp"
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"
 #include "rilo/session/session.hpp"
@@ -22,17 +22,11 @@ constexpr std::size_t kTumNumbers = 8;
 
 /// Words on the first line that is neither blank nor a comment; 0 when there is none within the first 64 KiB.
 std::size_t words_of_first_line(const std::filesystem::path& file) {
-  constexpr std::size_t kLookedAt = std::size_t{1} << 16;
-  std::string start(kLookedAt, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(stream.gcount()));
-  std::istringstream lines(start);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::size_t count = 0;
-    for (std::string word; words >> word && (count > 0 || word[0] != '#');) ++count;
-    if (count > 0) return count;
+  const detail::FileBytes start = detail::read_file(file, std::size_t{1} << 16);
+  detail::LineScanner lines(start.view());
+  while (const auto line = lines.next()) {
+    const auto words = detail::words_of(*line);
+    if (!words.empty() && words[0][0] != '#') return words.size();
   }
   return 0;
 }
@@ -60,7 +54,7 @@ PoseFile read_poses(const std::filesystem::path& file) {
                  "Give a pose file"});
 }
 
-PoseFile read_truth(const std::filesystem::path& path, TruthInstant instant) {
+PoseFile read_truth(const std::filesystem::path& path, PoseInstant instant) {
   if (!std::filesystem::is_directory(path)) return read_poses(path);
   const auto truth = read_ground_truth(path, instant);
   if (truth) return without_stamps(truth->file, truth->T_world_lidar);

@@ -20,7 +20,7 @@ struct PoseFile {
 PoseFile read_poses(const std::filesystem::path& file);
 
 /// The same, or the ground truth of a data folder for that time of the sweeps. @throws IoError
-PoseFile read_truth(const std::filesystem::path& path, TruthInstant instant);
+PoseFile read_truth(const std::filesystem::path& path, PoseInstant instant);
 
 enum class Pairing { kAuto, kIndex, kStamp };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "console/failure.hpp"
 #include "console/interrupt.hpp"
 #include "io/stamp_difference.hpp"
+#include "rilo/io/trajectory_files.hpp"
 #include "session/steady_clock.hpp"
 
 namespace rilo {
@@ -50,14 +52,52 @@ void ProgressLine::on_registered(const RegisteredSweep& sweep) {
 void ProgressLine::on_warning(const std::string& warning) { progress_.say("rilo: warning: " + warning); }
 
 void ProgressLine::on_restart(const Restart& restart) {
-  progress_.say(
-      fmt::format("rilo: elevation offset of the sensor estimated: {:+.3f} deg ({} sweeps); restarting with "
-                  "it (--one-pass: off)",
-                  restart.elevation_offset_deg, restart.after_sweeps));
+  progress_.say(fmt::format(
+      "rilo: elevation offset of the sensor estimated: {:+.3f} deg ({} sweeps); restarting with it (--one-pass: off)",
+      restart.elevation_offset_deg, restart.after_sweeps));
   done_ = 0;
 }
 
 void ProgressLine::on_end(const Odometry& /*odometry*/) { progress_.finish(); }
+
+PartialPoses::PartialPoses(const std::filesystem::path& folder) {
+  if (folder.empty()) return;
+  file_ = folder / "poses_lidar.partial.txt";
+  open();
+}
+
+void PartialPoses::open() {
+  stream_.open(file_, std::ios::binary | std::ios::trunc);
+  if (!stream_) throw RunError(RunErrorKind::kCannotWrite, file_.string() + ": cannot be opened for writing");
+}
+
+void PartialPoses::on_registered(const RegisteredSweep& sweep) {
+  if (file_.empty()) return;
+  const std::string line = kitti_line(sweep.result.T_odom_lidar);
+  stream_ << line << std::flush;
+  if (stream_) {
+    bytes_ += line.size();
+    return;
+  }
+  stream_.close();
+  std::error_code ignored;
+  std::filesystem::resize_file(file_, bytes_, ignored);  // half a line would spoil the file
+  throw RunError(RunErrorKind::kCannotWrite, file_.string() + ": cannot be written; is the disk full?");
+}
+
+void PartialPoses::on_restart(const Restart& /*restart*/) {
+  if (file_.empty()) return;
+  stream_.close();
+  bytes_ = 0;
+  open();
+}
+
+void PartialPoses::remove() {
+  if (file_.empty()) return;
+  stream_.close();
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+}
 
 MapPicture::MapPicture() : map_(kPictureVoxelM, kPicturePoints) {}
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +44,29 @@ class ProgressLine final : public SessionObserver {
   PointTimes times_;
   bool note_given_ = false;
   std::size_t done_ = 0;
+};
+
+/// `poses_lidar.partial.txt` in the output folder, KITTI form, one line per sweep, handed to the system immediately:
+/// even a run that is killed leaves a valid beginning. It goes away when the whole files are in place.
+class PartialPoses final : public SessionObserver {
+ public:
+  /// An empty `folder`: nothing is written.
+  explicit PartialPoses(const std::filesystem::path& folder);
+
+  /// @throws RunError, kCannotWrite, when the disk is full; the lines before stay.
+  void on_registered(const RegisteredSweep& sweep) override;
+
+  /// Forgets the poses so far. @throws RunError, kCannotWrite
+  void on_restart(const Restart& restart) override;
+
+  void remove();
+
+ private:
+  void open();
+
+  std::filesystem::path file_;
+  std::ofstream stream_;
+  std::uintmax_t bytes_ = 0;  // of complete lines
 };
 
 /// Few enough points of the map for the report's picture.

@@ -1,6 +1,5 @@
 #include "results/run_outputs.hpp"
 
-#include <sstream>
 #include <system_error>
 
 #include "console/text.hpp"
@@ -36,9 +35,7 @@ void write_poses(const fs::path& folder, const RunRecord& run, const RecordingNa
   write_tum(folder / "trajectory.tum", trajectory);
   write_euroc(folder / "trajectory.csv", trajectory);
   write_mcap(folder / "trajectory.mcap", run.results, names);
-  if (can_write_bags()) {
-    write_bag(folder / "trajectory.bag", run.results, names);
-  }
+  if (can_write_bags()) write_bag(folder / "trajectory.bag", run.results, names);
   if (run.source.T_cam_lidar) {
     write_kitti_poses_camera(folder / "poses_camera.txt", trajectory, *run.source.T_cam_lidar);
   } else {
@@ -52,9 +49,7 @@ void write_report(const OutputRequest& flags, const RunRecord& run, const RunMet
     fs::remove(file);
     return;
   }
-  std::ostringstream html;
-  write_html_report(report_of(run, metrics), html);
-  write_atomically(file, html.str());
+  write_atomically(file, html_report({"", {}, {report_of(run, metrics)}, {}}));
 }
 
 // Of an earlier run into the same folder, unless it is the one that is written now.
@@ -98,9 +93,7 @@ void prepare_outputs(const OutputRequest& flags) {
       create_folder(flags.out);
       const AtomicFile probe(fs::path(flags.out) / "metrics.json");
     }
-    if (!flags.map.empty()) {
-      const MapWriter probe(flags.map);
-    }
+    if (!flags.map.empty()) const MapWriter probe(flags.map);
   } catch (const IoError& error) {
     throw RunError(RunErrorKind::kCannotWrite, error.what());
   }

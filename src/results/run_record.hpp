@@ -1,13 +1,10 @@
 // Everything a run leaves behind, before it is written.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "console/failure.hpp"
 #include "rilo/cloud/thinned_map.hpp"

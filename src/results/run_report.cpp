@@ -11,22 +11,6 @@ namespace rilo {
 
 namespace {
 
-ReportSweep report_sweep(const SweepResult& result) {
-  const SweepStats& s = result.stats;
-  ReportSweep sweep;
-  sweep.total_ms = s.times.total_ms;
-  sweep.preprocess_ms = s.times.preprocess_ms;
-  sweep.coarse_ms = s.times.initial_pose_ms;
-  sweep.registration_ms = s.times.registration_ms;
-  sweep.map_ms = s.times.map_ms;
-  sweep.iterations = s.iterations;
-  sweep.inlier_ratio = s.inlier_ratio;
-  sweep.sigma_th_m = s.sigma_th_m;
-  sweep.status = to_string(result.status);
-  sweep.initial_pose = to_string(s.initial_pose);
-  return sweep;
-}
-
 std::string notice_of(const RunRecord& run) {
   if (!run.error.empty()) return valid_utf8("The run ended at an error; this is the part before. " + run.error);
   if (run.signal != 0) return "The run was interrupted; this is the part before.";
@@ -72,10 +56,8 @@ RunReport report_of(const RunRecord& run, const RunMetrics& metrics) {
   report.dataset = valid_utf8(data);
   report.notice = notice_of(run);
   add_facts(run, metrics, report);
-  for (const SweepResult& result : run.results) {
-    report.estimate.push_back(result.T_odom_lidar);
-    report.sweeps.push_back(report_sweep(result));
-  }
+  report.sweeps = run.results;
+  for (const SweepResult& result : run.results) report.estimate.push_back(result.T_odom_lidar);
   if (run.truth) {
     const SE3 T_odom_world = run.truth->estimate.front() * run.truth->truth.front().inverse();
     report.truth = moved(run.truth->truth, T_odom_world);

@@ -1,8 +1,7 @@
-#include "results/run_summary.hpp"
-
 #include <fmt/format.h>
 
 #include "console/text.hpp"
+#include "results/run_metrics.hpp"
 
 namespace rilo {
 

@@ -14,24 +14,11 @@ namespace rilo {
 
 namespace {
 
-TruthInstant same_instant(PoseInstant instant) {
-  switch (instant) {
-    case PoseInstant::kStart:
-      return TruthInstant::kStart;
-    case PoseInstant::kEnd:
-      return TruthInstant::kEnd;
-    case PoseInstant::kMid:
-      break;
-  }
-  return TruthInstant::kMid;
-}
-
 void to_lidar_frame(PoseFile& file, const std::optional<SE3>& T_cam_lidar) {
   if (!T_cam_lidar) {
-    throw RunError(RunErrorKind::kBadData,
-                   file.file.string() +
-                       ": poses in the camera frame, and the data have no calib.txt with Tr; expected "
-                       "the transform from LiDAR to camera");
+    throw RunError(RunErrorKind::kBadData, file.file.string() +
+                                               ": poses in the camera frame, and the data have no calib.txt with Tr; "
+                                               "expected the transform from LiDAR to camera");
   }
   const std::vector<SE3> poses = camera_to_lidar(poses_of(file.trajectory), *T_cam_lidar);
   for (std::size_t i = 0; i < poses.size(); ++i) file.trajectory[i].T_odom_lidar = poses[i];
@@ -74,7 +61,7 @@ PosesOfSweeps poses_of_sweeps(const GivenPoses& given, const RunRecord& run) {
 
 std::optional<SweepTruth> truth_of_sweeps(const RunRecord& run, const std::optional<GivenPoses>& given) {
   if (given) return SweepTruth{poses_of_sweeps(*given, run), given->file.string(), "as in the given file", {}};
-  const auto truth = read_ground_truth(run.data, same_instant(run.pose_instant));
+  const auto truth = read_ground_truth(run.data, run.pose_instant);
   if (!truth) return std::nullopt;
   return SweepTruth{by_index(truth->T_world_lidar, run), truth->file.string(), truth->instant, truth->warnings};
 }

@@ -1,13 +1,14 @@
 #include "results/saved_run.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "console/text.hpp"
-#include "results/json_file.hpp"
+#include "io/file_bytes.hpp"
+#include "io/ground_truth.hpp"
+#include "io/scan_listing.hpp"
 #include "results/metrics_json.hpp"
 #include "results/sweep_table.hpp"
 #include "rilo/config/config_file.hpp"
@@ -24,11 +25,6 @@ namespace fs = std::filesystem;
 constexpr const char* kMetrics = "metrics.json";
 constexpr const char* kPartial = "poses_lidar.partial.txt";
 constexpr const char* kAgain = "Run rilo run again";
-
-bool is_file(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored);
-}
 
 /// What an older version did not write is said to be unknown.
 RunMetrics read_metrics(const fs::path& file) {
@@ -58,27 +54,20 @@ void fill_record(const RunMetrics& metrics, RunRecord& run) {
   run.source.elevation_correction_deg = metrics.elevation_correction_deg.value_or(0);
   run.source.topic = metrics.topic;
   run.source.warnings = metrics.warnings;
-  for (const PoseInstant instant : {PoseInstant::kStart, PoseInstant::kMid, PoseInstant::kEnd}) {
-    if (metrics.pose_instant == to_string(instant)) run.pose_instant = instant;
-  }
+  run.pose_instant = parse_pose_instant(metrics.pose_instant).value_or(run.pose_instant);
 }
 
 /// Median step of the stamps; the default of a source when there is none.
 double period_of(const RunRecord& run) {
-  std::vector<std::int64_t> steps;
-  for (std::size_t i = 1; i < run.results.size(); ++i) {
-    steps.push_back(run.results[i].stamp_ns - run.results[i - 1].stamp_ns);
-  }
-  if (steps.empty()) return run.source.period_s;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle > 0 ? static_cast<double>(*middle) * 1e-9 : run.source.period_s;
+  std::vector<std::int64_t> stamps;
+  for (const SweepResult& result : run.results) stamps.push_back(result.stamp_ns);
+  return detail::median_gap_s(stamps).value_or(run.source.period_s);
 }
 
 /// The configuration decides one line of the report; one of another version is not a reason to refuse the run.
 OdometryConfig config_of(const fs::path& folder) {
   try {
-    return is_file(folder / "config.yaml") ? load_config(folder / "config.yaml") : OdometryConfig{};
+    return detail::is_file(folder / "config.yaml") ? load_config(folder / "config.yaml") : OdometryConfig{};
   } catch (const ConfigError&) {
     return {};
   }
@@ -143,7 +132,9 @@ SavedRun read_killed_run(const fs::path& folder) {
 
 }  // namespace
 
-bool is_saved_run(const fs::path& folder) { return is_file(folder / kMetrics) || is_file(folder / kPartial); }
+bool is_saved_run(const fs::path& folder) {
+  return detail::is_file(folder / kMetrics) || detail::is_file(folder / kPartial);
+}
 
 SavedRun read_saved_run(const fs::path& folder) {
   std::error_code ignored;
@@ -155,7 +146,7 @@ SavedRun read_saved_run(const fs::path& folder) {
     throw IoError({folder, "", "neither metrics.json nor poses_lidar.partial.txt in it",
                    "a folder that rilo run --out has written", "Check the path"});
   }
-  if (!is_file(folder / kMetrics)) return read_killed_run(folder);
+  if (!detail::is_file(folder / kMetrics)) return read_killed_run(folder);
   SavedRun run;
   run.folder = folder;
   run.metrics = read_metrics(folder / kMetrics);
@@ -166,11 +157,11 @@ SavedRun read_saved_run(const fs::path& folder) {
   set_poses(folder / "poses_lidar.txt", run.record);
   run.record.source.period_s = period_of(run.record);
   run.record.config = config_of(folder);
-  if (is_file(run.record.data / "calib.txt")) {
+  if (detail::is_file(run.record.data / "calib.txt")) {
     run.record.source.T_cam_lidar = read_kitti_calibration(run.record.data / "calib.txt");
   }
   read_map(run);
-  if (is_file(folder / kPartial)) {
+  if (detail::is_file(folder / kPartial)) {
     run.notices.push_back(fmt::format(
         "a later run into this folder was killed or is still running ({}); shown is the one before", kPartial));
   }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 

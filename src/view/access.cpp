@@ -3,31 +3,24 @@
 #include <algorithm>
 #include <array>
 #include <boost/asio/ip/address.hpp>
-#include <cctype>
+#include <boost/asio/ip/host_name.hpp>
 #include <cerrno>
 #include <cstring>
 #include <sys/random.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::view {
 
 namespace {
 
-std::string lower_ascii(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
-
 // Without port; an IPv6 address without its brackets.
 std::string host_name(std::string_view host) {
-  if (host.starts_with('[')) return lower_ascii(host.substr(1, std::min(host.find(']'), host.size()) - 1));
-  return lower_ascii(host.substr(0, host.find(':')));
+  if (host.starts_with('[')) return detail::lower_case(host.substr(1, std::min(host.find(']'), host.size()) - 1));
+  return detail::lower_case(host.substr(0, host.find(':')));
 }
 
 std::string drawn_token() {
@@ -39,9 +32,8 @@ std::string drawn_token() {
 }
 
 std::string machine_name() {
-  std::array<char, 256> name{};
-  if (gethostname(name.data(), name.size() - 1) != 0) return {};
-  return lower_ascii(name.data());
+  boost::system::error_code unknown;
+  return detail::lower_case(boost::asio::ip::host_name(unknown));
 }
 
 // Time does not tell how much of it was right.
@@ -77,7 +69,7 @@ bool Access::host_allowed(std::string_view host) const {
 }
 
 bool Access::origin_allowed(std::string_view origin, std::string_view host) {
-  return !host.empty() && lower_ascii(origin) == "http://" + lower_ascii(host);
+  return !host.empty() && detail::lower_case(origin) == "http://" + detail::lower_case(host);
 }
 
 bool Access::token_allowed(std::string_view target) const {

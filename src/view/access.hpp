@@ -1,7 +1,6 @@
 // Who may look.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 

@@ -1,6 +1,5 @@
 #include "view/budgeted_map.hpp"
 
-#include <cmath>
 #include <numbers>
 #include <stdexcept>
 

@@ -29,6 +29,8 @@ struct Progress {
   std::uint32_t total = 0;  // 0: unknown
   bool finished = false;
   std::uint32_t dropped = 0;
+
+  friend bool operator==(const Progress&, const Progress&) = default;
 };
 
 /// JSON text.

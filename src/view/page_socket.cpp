@@ -1,6 +1,5 @@
 #include "page_socket.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <span>
 #include <utility>
@@ -13,10 +12,6 @@ namespace websocket = boost::beast::websocket;
 namespace {
 
 constexpr int kSendBufferBytes = 1 << 19;  // what waits in the system is old when it arrives
-
-bool same(const Progress& a, const Progress& b) {
-  return a.sweeps == b.sweeps && a.total == b.total && a.finished == b.finished && a.dropped == b.dropped;
-}
 
 }  // namespace
 
@@ -119,7 +114,7 @@ Frame PageSocket::next_frame() {
     told_records_ += static_cast<std::uint32_t>((frame->size() - 2 * kHeaderBytes) / kRecordBytes);
     return frame;
   }
-  if (!same(told_progress_, history.progress())) {
+  if (told_progress_ != history.progress()) {
     told_progress_ = history.progress();
     return progress_frame(told_progress_);
   }

@@ -18,7 +18,7 @@ namespace rilo::view {
 
 class PageSocket;
 
-/// What all connections share. Used by the server's thread, but for the counters.
+/// What all connections share. Used by the server's thread, but for the counter.
 struct Hub {
   Hub(const ViewInfo& what, const ViewOptions& how, bool loopback)
       : info(what), options(how), access(loopback), history(what, how) {}
@@ -35,7 +35,6 @@ struct Hub {
   ViewHistory history;
   std::vector<std::weak_ptr<PageSocket>> sockets;
   std::atomic<std::size_t> clients = 0;
-  std::atomic<std::size_t> dropped = 0;
 };
 
 inline constexpr std::size_t kMaxClients = 8;

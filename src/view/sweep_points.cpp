@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "cloud/deskew.hpp"
 
@@ -58,9 +57,7 @@ SweepPoints sample_sweep(const ViewSweep& view, std::size_t max_points, double m
   for (float& t : out.times_s) t -= middle;
   const SweepMotion motion(view.result.twist, out.times_s[static_cast<std::size_t>(first - out.times_s.begin())],
                            out.times_s[static_cast<std::size_t>(last - out.times_s.begin())]);
-  for (std::size_t i = 0; i < out.points.size(); ++i) {
-    out.points[i] = motion.compensate(out.points[i], out.times_s[i]);
-  }
+  for (std::size_t i = 0; i < out.points.size(); ++i) out.points[i] = motion.compensate(out.points[i], out.times_s[i]);
   return out;
 }
 

@@ -1,7 +1,6 @@
 #include "view_history.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 #include <vector>

@@ -1,9 +1,9 @@
 #include "view/viewer.hpp"
 
+#include <boost/asio/ip/host_name.hpp>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -20,11 +20,9 @@ namespace {
 
 constexpr std::size_t kQueue = 4;  // sweeps with points on their way to the viewer's thread
 
-}  // namespace
-
-class Viewer::Impl {
+class ServedViewer final : public Viewer {
  public:
-  Impl(const ViewInfo& info, const ViewOptions& options)
+  ServedViewer(const ViewInfo& info, const ViewOptions& options)
       : unhurried_(options.share >= 1.0),
         hub_(info, options, view::is_loopback(options.address)),
         server_(thread_.io(), options.address, options.port, hub_) {
@@ -37,16 +35,13 @@ class Viewer::Impl {
     });
   }
 
-  ~Impl() {
+  ~ServedViewer() override {
     thread_.stop([this] { server_.stop(); });
   }
 
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
+  const std::string& url() const override { return url_; }
 
-  const std::string& url() const { return url_; }
-
-  void push(ViewSweep sweep, bool wait) {
+  void push(ViewSweep sweep, bool wait) override {
     const bool has_points = !sweep.sweep.points.empty();
     const bool drop = has_points && !take_room(wait);
     if (drop) sweep.sweep = Sweep{};
@@ -55,18 +50,16 @@ class Viewer::Impl {
     thread_.post([this, shared = std::move(shared), drop, counted = has_points && !drop] {
       hub_.history.add(*shared, unhurried_ || hub_.clients > 0);
       if (drop) hub_.history.note_dropped();
-      hub_.dropped = hub_.history.progress().dropped;
       if (counted) give_room();
       hub_.wake();
     });
   }
 
-  std::vector<std::uint32_t> missing_points() {
+  std::vector<std::uint32_t> missing_points() override {
     auto missing = std::make_shared<std::optional<std::vector<std::uint32_t>>>();
     thread_.post([this, missing] {
       const std::lock_guard lock(mutex_);
       *missing = hub_.history.choose_missing();
-      hub_.dropped = hub_.history.progress().dropped;
       room_.notify_all();
     });
     std::unique_lock lock(mutex_);
@@ -74,38 +67,35 @@ class Viewer::Impl {
     return missing->value_or(std::vector<std::uint32_t>{});
   }
 
-  void fill(std::uint32_t number, ViewSweep sweep) {
+  void fill(std::uint32_t number, ViewSweep sweep) override {
     if (!take_room(true)) return;
     auto shared = std::make_shared<const ViewSweep>(std::move(sweep));
     thread_.post([this, number, shared = std::move(shared)] {
       hub_.history.fill(number, *shared, hub_.clients > 0);
-      hub_.dropped = hub_.history.progress().dropped;
       give_room();
       hub_.wake();
     });
   }
 
-  void add_map(std::vector<Eigen::Vector3f> points, std::vector<std::uint32_t> sweeps) {
+  void add_map(std::vector<Eigen::Vector3f> points, std::vector<std::uint32_t> sweeps) override {
     thread_.post([this, points = std::move(points), sweeps = std::move(sweeps)] {
       hub_.history.add_map(points, sweeps);
       hub_.wake();
     });
   }
 
-  void start_over() {
+  void start_over() override {
     thread_.post([this] { hub_.start_over(); });
   }
 
-  void finish() {
+  void finish() override {
     thread_.post([this] {
       hub_.history.finish();
       hub_.wake();
     });
   }
 
-  std::string failure() const { return thread_.failure(); }
-  std::size_t clients() const { return hub_.clients; }
-  std::size_t dropped() const { return hub_.dropped; }
+  std::string failure() const override { return thread_.failure(); }
 
  private:
   // False when the queue is full.
@@ -127,10 +117,7 @@ class Viewer::Impl {
     const auto endpoint = server_.endpoint();
     const auto address = endpoint.address();
     std::string host = address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
-    if (address.is_unspecified()) {
-      std::string name(256, '\0');
-      if (gethostname(name.data(), name.size() - 1) == 0) host = name.substr(0, name.find('\0'));
-    }
+    if (address.is_unspecified()) host = boost::asio::ip::host_name();
     const std::string& token = hub_.access.token();
     return fmt::format("http://{}:{}/{}", host, endpoint.port(), token.empty() ? "" : "?token=" + token);
   }
@@ -145,41 +132,15 @@ class Viewer::Impl {
   std::size_t waiting_ = 0;
 };
 
-Viewer::Viewer(const ViewInfo& info, const ViewOptions& options) {
-  if (!has_page()) {
+}  // namespace
+
+std::unique_ptr<Viewer> open_viewer(const ViewInfo& info, const ViewOptions& options) {
+  if (view::page_files().empty()) {
     throw IoError({"the viewer", "", "a build without its page",
                    "a build made with npm and the npm registry within reach",
                    "Install nodejs and npm, configure and build again"});
   }
-  impl_ = std::make_unique<Impl>(info, options);
+  return std::make_unique<ServedViewer>(info, options);
 }
-
-Viewer::~Viewer() = default;
-
-bool Viewer::has_page() { return !view::page_files().empty(); }
-
-std::string Viewer::url() const { return impl_->url(); }
-
-void Viewer::push(ViewSweep sweep) { impl_->push(std::move(sweep), false); }
-
-void Viewer::push_all(ViewSweep sweep) { impl_->push(std::move(sweep), true); }
-
-std::vector<std::uint32_t> Viewer::missing_points() { return impl_->missing_points(); }
-
-void Viewer::fill(std::uint32_t number, ViewSweep sweep) { impl_->fill(number, std::move(sweep)); }
-
-void Viewer::add_map(std::span<const Eigen::Vector3f> points, std::span<const std::uint32_t> sweeps) {
-  impl_->add_map({points.begin(), points.end()}, {sweeps.begin(), sweeps.end()});
-}
-
-void Viewer::start_over() { impl_->start_over(); }
-
-void Viewer::finish() { impl_->finish(); }
-
-std::string Viewer::failure() const { return impl_->failure(); }
-
-std::size_t Viewer::clients() const { return impl_->clients(); }
-
-std::size_t Viewer::dropped() const { return impl_->dropped(); }
 
 }  // namespace rilo

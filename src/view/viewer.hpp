@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -27,59 +26,46 @@ struct ViewOptions {
 /// The port that is taken when none is asked for.
 inline constexpr std::uint16_t kViewPort = 7456;
 
-/// Serves the page from a thread of its own. Methods are called by one thread.
+/// Serves the page from a thread of its own until it is destroyed. Methods are called by one thread.
 class Viewer {
  public:
-  /// Binds and begins to serve.
-  /// @throws IoError: no such address, port taken, or a build without the page.
-  Viewer(const ViewInfo& info, const ViewOptions& options);
-  /// Ends all connections.
-  ~Viewer();
+  virtual ~Viewer() = default;
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  /// Whether this build holds the page.
-  static bool has_page();
-
   /// Where to look, with the token where one is needed.
-  std::string url() const;
+  virtual const std::string& url() const = 0;
 
-  /// Hands a sweep over; takes microseconds. When the viewer cannot keep up, the sweep's points are dropped, its pose
-  /// and statistics never.
-  void push(ViewSweep sweep);
-
-  /// The same, but waits until the viewer has room and keeps the points: for replays.
-  void push_all(ViewSweep sweep);
+  /// Hands a sweep over. When the viewer cannot keep up, the sweep's points are dropped, its pose and statistics never:
+  /// that takes microseconds. With `wait` they are kept, and it waits until the viewer has room: for replays.
+  virtual void push(ViewSweep sweep, bool wait) = 0;
 
   /// Numbers (counted from the first one that was pushed) of sweeps whose points were dropped, ascending: those that
   /// there is room for. Waits until all that was handed over is taken in. Only these count as dropped from now on.
-  std::vector<std::uint32_t> missing_points();
+  virtual std::vector<std::uint32_t> missing_points() = 0;
 
   /// Adds the points of one of them; waits until the viewer has room.
-  void fill(std::uint32_t number, ViewSweep sweep);
+  virtual void fill(std::uint32_t number, ViewSweep sweep) = 0;
 
   /// Points of a finished map, odometry frame (m); each appears with the sweep of that number (counted from the first
-  /// one that was pushed). Both spans are of the same length.
-  void add_map(std::span<const Eigen::Vector3f> points, std::span<const std::uint32_t> sweeps);
+  /// one that was pushed). Both are of the same length.
+  virtual void add_map(std::vector<Eigen::Vector3f> points, std::vector<std::uint32_t> sweeps) = 0;
 
   /// Forgets the sweeps so far: the run restarts. Pages are disconnected, and connect again by themselves.
-  void start_over();
+  virtual void start_over() = 0;
 
   /// No sweep will come any more.
-  void finish();
+  virtual void finish() = 0;
 
   /// Why it ended early; what is handed over from then on is dropped. Empty: it is running.
-  std::string failure() const;
+  virtual std::string failure() const = 0;
 
-  /// Pages that are connected now.
-  std::size_t clients() const;
-
-  /// Sweeps whose points were dropped so far.
-  std::size_t dropped() const;
-
- private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+ protected:
+  Viewer() = default;
 };
+
+/// Binds and begins to serve.
+/// @throws IoError: no such address, port taken, or a build without the page.
+std::unique_ptr<Viewer> open_viewer(const ViewInfo& info, const ViewOptions& options);
 
 }  // namespace rilo

@@ -1,14 +1,11 @@
 // Parts of experiments at scale: content hashes, the files of cells, the store, repeats, Slurm's lists.
 #include <filesystem>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bench/cell_file.hpp"
 #include "bench/content_hash.hpp"
-#include "bench/description.hpp"
-#include "bench/repeats.hpp"
 #include "bench/slurm_commands.hpp"
 #include "bench/store.hpp"
 #include "io/io_test_util.hpp"
@@ -41,9 +38,10 @@ BenchJob made_job(const fs::path& data) {
   return job;
 }
 
-std::string key_of(BenchJob job, const BenchRunOptions& flags = {}) {
-  Describer(flags, {}).describe(job);
-  return job.key;
+std::string key_of(const BenchJob& job, const BenchRunOptions& flags = {}) {
+  std::vector<BenchJob> jobs = {job};
+  describe(jobs, flags, {});
+  return jobs.front().key;
 }
 
 TEST(ContentHash, IsThatOfTheStandard) {

@@ -1,11 +1,9 @@
 // Tables, averages and results.json of cells made by hand.
 #include <filesystem>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/baseline.hpp"
 #include "bench/cell_file.hpp"
 #include "bench/saved_results.hpp"
 #include "bench/tables.hpp"

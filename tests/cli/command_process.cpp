@@ -1,6 +1,5 @@
 #include "cli/command_process.hpp"
 
-#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>

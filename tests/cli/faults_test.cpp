@@ -37,9 +37,7 @@ void expect_whole_files(const fs::path& out) {
   if (fs::exists(out / "map.ply")) {
     EXPECT_GT(read_ply(out / "map.ply").points.size(), 100U);
   }
-  for (const auto& entry : fs::directory_iterator(out)) {
-    EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
-  }
+  for (const auto& entry : fs::directory_iterator(out)) EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
 }
 
 TEST(Faults, KilledWhileResultsAreWritten) {
@@ -68,7 +66,9 @@ TEST(Faults, InterruptedWhileResultsAreWrittenItStillWritesThem) {
   ASSERT_TRUE(run.wait_until([&] { return fs::exists(out / "poses_lidar.txt"); }));
   run.send(SIGTERM);
   const Outcome outcome = run.wait();
-  if (outcome.signal != 0) GTEST_SKIP() << "all was written before the signal came";
+  if (outcome.signal != 0) {
+    GTEST_SKIP() << "all was written before the signal came";
+  }
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_whole_files(out);
   EXPECT_TRUE(fs::exists(out / "map.ply"));
@@ -93,7 +93,9 @@ TEST(Faults, AFullDiskKeepsWhatFitsAndABenchmarkGoesOnWhenThereIsRoom) {
   const TempDir folder;
   const auto out = folder / "disk";
   const SmallDisk disk(out, "size=64k");
-  if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here";
+  if (!disk.mounted()) {
+    GTEST_SKIP() << "no disk can be mounted here";
+  }
   rilo_fails(4, {"run", shared_drive(), "--out", out, "--quiet"}, {"No space left", "Free some disk space"});
   expect_whole_files(out);
   EXPECT_EQ(read_kitti_poses(out / "poses_lidar.partial.txt").size(), kDriveSweeps);
@@ -110,7 +112,9 @@ TEST(Faults, AFullDiskKeepsWhatFitsAndABenchmarkGoesOnWhenThereIsRoom) {
 TEST(Faults, AReadOnlyDiskIsSaidBeforeTheRun) {
   const TempDir folder;
   const SmallDisk disk(folder / "disk", "size=64k");
-  if (!disk.mounted() || !disk.change(MS_RDONLY, "size=64k")) GTEST_SKIP() << "no disk can be mounted here";
+  if (!disk.mounted() || !disk.change(MS_RDONLY, "size=64k")) {
+    GTEST_SKIP() << "no disk can be mounted here";
+  }
   rilo_fails(4, {"run", shared_drive(), "--out", folder / "disk", "--quiet"}, {"Read-only file system"});
   rilo_fails(4, {"run", shared_drive(), "--out", folder / "disk" / "new", "--quiet"}, {"Read-only file system"});
   const auto plan = folder.write("plan.yaml", "sequences: [{path: '" + shared_drive().string() + "'}]\n");

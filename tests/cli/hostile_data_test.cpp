@@ -1,5 +1,4 @@
 // Data that are malformed, missing or useless.
-#include <cmath>
 #include <limits>
 
 #include "cli/drives.hpp"

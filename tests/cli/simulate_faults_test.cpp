@@ -78,7 +78,9 @@ TEST(SimulateFaults, AFullDiskKeepsTheSweepsThatFit) {
   const TempDir folder;
   const auto out = folder / "disk";
   const SmallDisk disk(out, "size=2m");
-  if (!disk.mounted()) GTEST_SKIP() << "no disk can be mounted here";
+  if (!disk.mounted()) {
+    GTEST_SKIP() << "no disk can be mounted here";
+  }
   rilo_fails(4, same_drive_into(out), {".bin", "cannot write", "No space left"});
   EXPECT_GT(files_in(out / "velodyne"), 0U);
   expect_files_of_the_drive(out);

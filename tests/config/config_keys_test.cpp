@@ -1,6 +1,4 @@
 // Every field is a key, and every key reaches its own field.
-#include "config/config_keys.hpp"
-
 #include <map>
 #include <set>
 #include <string>
@@ -10,6 +8,7 @@
 
 #include "config/field_count.hpp"
 #include "rilo/config/config_file.hpp"
+#include "rilo/config/config_key.hpp"
 
 namespace rilo {
 namespace {

@@ -41,9 +41,7 @@ TEST(Umeyama, RecoversPlanarTrajectories) {
   std::mt19937 random(2);
   for (int round = 0; round < 20; ++round) {
     std::vector<SE3> truth;
-    for (int i = 0; i < 40; ++i) {
-      truth.push_back(pose(i, 0.1 * i * i, 0, 0.02 * i));
-    }
+    for (int i = 0; i < 40; ++i) truth.push_back(pose(i, 0.1 * i * i, 0, 0.02 * i));
     const SE3 T = se3_exp(random_twist(random, 1.5, 100.0));
     const SE3 found = align_umeyama(truth, moved(truth, T.inverse()));
     EXPECT_LT(distance(found, T), 1e-9);

@@ -19,9 +19,7 @@ using testing::straight_line;
 using testing::with_drift;
 
 std::vector<SE3> scaled(std::vector<SE3> poses, double scale) {
-  for (SE3& T : poses) {
-    T.translation() *= scale;
-  }
+  for (SE3& T : poses) T.translation() *= scale;
   return poses;
 }
 
@@ -34,9 +32,7 @@ TEST(KittiError, OnePercentOfScale) {
   EXPECT_FALSE(error.short_path);
   // Starts 0, 10, 20 …; a segment of L metres fits 1000 m while start + L <= 1000.
   std::size_t expected = 0;
-  for (int k = 1; k <= 8; ++k) {
-    expected += static_cast<std::size_t>((1000 - 100 * k) / 10 + 1);
-  }
+  for (int k = 1; k <= 8; ++k) expected += static_cast<std::size_t>((1000 - 100 * k) / 10 + 1);
   EXPECT_EQ(error.segments.size(), expected);
   const std::vector<KittiLengthError> rows = error.per_length();
   ASSERT_EQ(rows.size(), 8U);
@@ -44,9 +40,7 @@ TEST(KittiError, OnePercentOfScale) {
   EXPECT_EQ(rows[0].count, 91U);
   EXPECT_EQ(rows[7].length_m, 800.0);
   EXPECT_EQ(rows[7].count, 21U);
-  for (const KittiLengthError& row : rows) {
-    EXPECT_NEAR(row.t_rel_pct, 1.0, 1e-9);
-  }
+  for (const KittiLengthError& row : rows) EXPECT_NEAR(row.t_rel_pct, 1.0, 1e-9);
 }
 
 // A heading that turns by 0.01 degree a metre beside a straight truth: 1 degree per 100 m over every length.
@@ -54,9 +48,7 @@ TEST(KittiError, ConstantYawDrift) {
   const double drift_rad = 0.01 * std::numbers::pi / 180.0;
   const std::vector<SE3> truth = straight_line(501, 1.0);
   std::vector<SE3> estimate{SE3::Identity()};
-  while (estimate.size() < truth.size()) {
-    estimate.push_back(estimate.back() * pose(1.0, 0, 0, drift_rad));
-  }
+  while (estimate.size() < truth.size()) estimate.push_back(estimate.back() * pose(1.0, 0, 0, drift_rad));
   const KittiError error = kitti_error(truth, estimate);
   EXPECT_NEAR(error.r_rel_deg_100m().value(), 1.0, 1e-6);
   // Segment of 100 m: the ends of an arc of 1 degree and of its tangent lie about L * angle / 2 apart.

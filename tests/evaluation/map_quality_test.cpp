@@ -114,9 +114,7 @@ TEST(MapQuality, IsTheNoiseOfThePlanes) {
 TEST(MapQuality, PerfectPlanesHaveAFiniteFigure) {
   Drive drive = floor_and_wall(30, 3000, 0.0);
   for (Points& sweep : drive.sweeps) {
-    for (Eigen::Vector3f& p : sweep) {
-      p.z() = -1.5F;
-    }
+    for (Eigen::Vector3f& p : sweep) p.z() = -1.5F;
   }
   drive.poses.assign(30, SE3::Identity());
   const MapQuality quality = map_quality(drive.sweeps, drive.poses);
@@ -160,9 +158,7 @@ TEST(MapQuality, SameBitsForAnyNumberOfThreads) {
 TEST(MapQuality, DoesNotDependOnTheFrameOfTheTrajectory) {
   const Drive drive = floor_and_wall(30, 3000, 0.01);
   std::vector<SE3> moved = drive.poses;
-  for (SE3& T : moved) {
-    T = pose(1000, -2000, 30, 2.0) * T;
-  }
+  for (SE3& T : moved) T = pose(1000, -2000, 30, 2.0) * T;
   const MapQuality a = map_quality(drive.sweeps, drive.poses);
   const MapQuality b = map_quality(drive.sweeps, moved);
   EXPECT_NEAR(a.plane_rms_m.median, b.plane_rms_m.median, 1e-9);

@@ -26,9 +26,7 @@ inline std::string output_of(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), &pclose);
   std::string text;
   std::array<char, 512> chunk{};
-  while (pipe && fgets(chunk.data(), static_cast<int>(chunk.size()), pipe.get()) != nullptr) {
-    text += chunk.data();
-  }
+  while (pipe && fgets(chunk.data(), static_cast<int>(chunk.size()), pipe.get()) != nullptr) text += chunk.data();
   return text;
 }
 
@@ -39,16 +37,12 @@ inline bool python_has(const std::string& module) {
 /// Figures by name, from the one line of JSON that `command` prints.
 inline std::map<std::string, double> peer_figures(const std::string& command) {
   std::string text = output_of(command);
-  for (char& c : text) {
-    c = c == '{' || c == '}' || c == '"' || c == ':' || c == ',' ? ' ' : c;
-  }
+  for (char& c : text) c = c == '{' || c == '}' || c == '"' || c == ':' || c == ',' ? ' ' : c;
   std::istringstream words(text);
   std::map<std::string, double> figures;
   std::string name;
   double value = 0;
-  while (words >> name >> value) {
-    figures[name] = value;
-  }
+  while (words >> name >> value) figures[name] = value;
   return figures;
 }
 
@@ -57,9 +51,7 @@ inline std::filesystem::path write_poses(const std::filesystem::path& path, cons
   std::ofstream file(path);
   file << std::setprecision(17);
   for (const SE3& T : poses) {
-    for (int i = 0; i < 12; ++i) {
-      file << T.matrix()(i / 4, i % 4) << (i == 11 ? '\n' : ' ');
-    }
+    for (int i = 0; i < 12; ++i) file << T.matrix()(i / 4, i % 4) << (i == 11 ? '\n' : ' ');
   }
   return path;
 }

@@ -32,9 +32,7 @@ std::vector<SE3> read_poses(const fs::path& path) {
   while (std::getline(file, line)) {
     std::istringstream numbers(line);
     SE3 T = SE3::Identity();
-    for (int i = 0; i < 12; ++i) {
-      numbers >> T.matrix()(i / 4, i % 4);
-    }
+    for (int i = 0; i < 12; ++i) numbers >> T.matrix()(i / 4, i % 4);
     poses.push_back(T);
   }
   return poses;
@@ -54,9 +52,7 @@ class PeerScorer : public ::testing::Test {
     fs::create_directories(folder_);
   }
   void TearDown() override {
-    if (!folder_.empty()) {
-      fs::remove_all(folder_);
-    }
+    if (!folder_.empty()) fs::remove_all(folder_);
   }
 
   /// Figures of the scorer by name, from its one line of JSON.

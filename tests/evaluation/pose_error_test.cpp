@@ -48,9 +48,7 @@ TEST(AbsolutePoseError, OnePercentOfScale) {
 TEST(AbsolutePoseError, RotationOfTheSensorAlone) {
   const std::vector<SE3> truth = straight_line(20, 1.0);
   std::vector<SE3> estimate = truth;
-  for (SE3& T : estimate) {
-    T = T * pose(0, 0, 0, 2.0 * kDegree);
-  }
+  for (SE3& T : estimate) T = T * pose(0, 0, 0, 2.0 * kDegree);
   const AbsolutePoseError error = absolute_pose_error(truth, estimate, Alignment::kNone);
   EXPECT_NEAR(error.rotation_deg.rmse, 2.0, 1e-9);
   EXPECT_NEAR(error.translation_m.max, 0.0, 1e-12);
@@ -78,9 +76,7 @@ TEST(AbsolutePoseError, InvariantToARigidMotionOfTheEstimate) {
 TEST(RelativePoseError, PerFrame) {
   const std::vector<SE3> truth = straight_line(11, 2.0);
   std::vector<SE3> estimate{SE3::Identity()};
-  while (estimate.size() < truth.size()) {
-    estimate.push_back(estimate.back() * pose(2.1, 0, 0, 0.5 * kDegree));
-  }
+  while (estimate.size() < truth.size()) estimate.push_back(estimate.back() * pose(2.1, 0, 0, 0.5 * kDegree));
   const RelativePoseError error = rpe_per_frame(truth, estimate);
   EXPECT_EQ(error.translation_m.count, 10U);
   EXPECT_NEAR(error.translation_m.mean, 0.1, 1e-9);

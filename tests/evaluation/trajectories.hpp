@@ -1,7 +1,6 @@
 // Trajectories whose errors are known by hand or by chance.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <random>
 #include <vector>
@@ -20,18 +19,14 @@ inline SE3 pose(double x, double y, double z, double yaw_rad = 0.0) {
 /// `n` poses along x, `step_m` apart.
 inline std::vector<SE3> straight_line(std::size_t n, double step_m) {
   std::vector<SE3> poses;
-  for (std::size_t i = 0; i < n; ++i) {
-    poses.push_back(pose(step_m * static_cast<double>(i), 0, 0));
-  }
+  for (std::size_t i = 0; i < n; ++i) poses.push_back(pose(step_m * static_cast<double>(i), 0, 0));
   return poses;
 }
 
 inline Vector6d random_twist(std::mt19937& random, double rotation_rad, double translation_m) {
   std::normal_distribution<double> normal;
   Vector6d xi;
-  for (int i = 0; i < 6; ++i) {
-    xi(i) = normal(random) * (i < 3 ? rotation_rad : translation_m);
-  }
+  for (int i = 0; i < 6; ++i) xi(i) = normal(random) * (i < 3 ? rotation_rad : translation_m);
   return xi;
 }
 

@@ -1,11 +1,10 @@
-#include "io/elevation_correction.hpp"
-
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
 
 #include "io/io_test_util.hpp"
+#include "io/source_wrappers.hpp"
 
 namespace rilo {
 namespace {
@@ -21,7 +20,7 @@ TEST(ElevationCorrectionTest, AddsTheAngleAndKeepsRangeAndAzimuth) {
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 500; ++i) points.emplace_back(uniform(random), uniform(random), uniform(random) / 10);
   auto corrected = points;
-  correct_elevation(corrected, 0.205);
+  detail::correct_elevation(corrected, 0.205);
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR(elevation(corrected[i]) - elevation(points[i]), 0.205 * std::numbers::pi / 180, 1e-6);
     EXPECT_NEAR(azimuth(corrected[i]), azimuth(points[i]), 1e-6);
@@ -35,14 +34,14 @@ TEST(ElevationCorrectionTest, IsTheRotationAboutPCrossZ) {
   const Eigen::Vector3d axis = p.cross(Eigen::Vector3d::UnitZ()).normalized();
   const Eigen::Vector3d expected = Eigen::AngleAxisd(0.205 * std::numbers::pi / 180, axis) * p;
   std::vector<Eigen::Vector3f> points{p.cast<float>()};
-  correct_elevation(points, 0.205);
+  detail::correct_elevation(points, 0.205);
   EXPECT_LT((points[0].cast<double>() - expected).norm(), 1e-5);
 }
 
 TEST(ElevationCorrectionTest, PointsWithoutAzimuthStay) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   std::vector<Eigen::Vector3f> points{{0, 0, 5}, {0, 0, 0}, {kNan, 1, 1}, {1, 0, 0}};
-  correct_elevation(points, 90);
+  detail::correct_elevation(points, 90);
   EXPECT_EQ(points[0], Eigen::Vector3f(0, 0, 5));
   EXPECT_EQ(points[1], Eigen::Vector3f(0, 0, 0));
   EXPECT_TRUE(std::isnan(points[2].x()));

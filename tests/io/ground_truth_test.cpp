@@ -19,9 +19,9 @@ void write_sweeps(const TempDir& folder, const std::string& where, int count) {
 TEST(GroundTruthTest, NothingThere) {
   const TempDir folder;
   write_sweeps(folder, "d", 2);
-  EXPECT_FALSE(read_ground_truth(folder / "d", TruthInstant::kMid));
-  EXPECT_FALSE(read_ground_truth(folder / "d/velodyne/0.bin", TruthInstant::kMid));
-  EXPECT_FALSE(read_ground_truth(folder / "none", TruthInstant::kMid));
+  EXPECT_FALSE(read_ground_truth(folder / "d", PoseInstant::kMid));
+  EXPECT_FALSE(read_ground_truth(folder / "d/velodyne/0.bin", PoseInstant::kMid));
+  EXPECT_FALSE(read_ground_truth(folder / "none", PoseInstant::kMid));
 }
 
 TEST(GroundTruthTest, DriveSimulatorHasAllInstants) {
@@ -29,19 +29,19 @@ TEST(GroundTruthTest, DriveSimulatorHasAllInstants) {
   write_sweeps(folder, "d", 1);
   folder.write("d/poses.txt", kitti_row(9, 0, 0));
   folder.write("d/calib.txt", kCalib);
-  for (const auto instant : {TruthInstant::kStart, TruthInstant::kMid, TruthInstant::kEnd}) {
+  for (const auto instant : {PoseInstant::kStart, PoseInstant::kMid, PoseInstant::kEnd}) {
     const std::string name(to_string(instant));
-    EXPECT_EQ(parse_truth_instant(name), instant);
+    EXPECT_EQ(parse_pose_instant(name), instant);
     folder.write("d/poses_" + name + ".txt", kitti_row(static_cast<double>(instant), 0, 0));
   }
-  for (const auto instant : {TruthInstant::kStart, TruthInstant::kMid, TruthInstant::kEnd}) {
+  for (const auto instant : {PoseInstant::kStart, PoseInstant::kMid, PoseInstant::kEnd}) {
     const auto truth = read_ground_truth(folder / "d", instant);
     ASSERT_TRUE(truth);
     EXPECT_EQ(truth->T_world_lidar.at(0).translation().x(), static_cast<double>(instant));
     EXPECT_EQ(truth->instant, to_string(instant));
     EXPECT_TRUE(truth->warnings.empty());
   }
-  EXPECT_FALSE(parse_truth_instant("middle"));
+  EXPECT_FALSE(parse_pose_instant("middle"));
 }
 
 TEST(GroundTruthTest, LidarFrameFile) {
@@ -49,14 +49,14 @@ TEST(GroundTruthTest, LidarFrameFile) {
   write_sweeps(folder, "d", 3);
   folder.write("d/calib.txt", kCalib);
   folder.write("d/poses_velo.txt", kitti_row(1, 2, 3) + kitti_row(4, 5, 6));
-  const auto truth = read_ground_truth(folder / "d", TruthInstant::kMid);
+  const auto truth = read_ground_truth(folder / "d", PoseInstant::kMid);
   ASSERT_TRUE(truth);
   ASSERT_EQ(truth->T_world_lidar.size(), 2U);
   EXPECT_EQ(truth->T_world_lidar[1].translation(), Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(truth->instant, "stamp");
   ASSERT_EQ(truth->warnings.size(), 1U);
   EXPECT_NE(truth->warnings[0].find("2 poses for 3 sweeps"), std::string::npos);
-  EXPECT_EQ(read_ground_truth(folder / "d", TruthInstant::kEnd)->warnings.size(), 2U);
+  EXPECT_EQ(read_ground_truth(folder / "d", PoseInstant::kEnd)->warnings.size(), 2U);
 }
 
 TEST(GroundTruthTest, CameraFrameComesToTheLidarFrame) {
@@ -64,13 +64,13 @@ TEST(GroundTruthTest, CameraFrameComesToTheLidarFrame) {
   write_sweeps(folder, "d", 1);
   folder.write("d/calib.txt", kCalib);
   folder.write("d/poses.txt", kitti_row(1, 2, 3));
-  const auto truth = read_ground_truth(folder / "d", TruthInstant::kMid);
+  const auto truth = read_ground_truth(folder / "d", PoseInstant::kMid);
   ASSERT_TRUE(truth);
   // Camera right 1, down 2, forward 3 is LiDAR forward 3, left -1, up -2.
   EXPECT_TRUE(truth->T_world_lidar[0].translation().isApprox(Eigen::Vector3d(3, -1, -2)));
   EXPECT_TRUE(truth->warnings.empty());
   std::filesystem::remove(folder / "d/calib.txt");
-  const auto plain = read_ground_truth(folder / "d", TruthInstant::kMid);
+  const auto plain = read_ground_truth(folder / "d", PoseInstant::kMid);
   EXPECT_EQ(plain->T_world_lidar[0].translation(), Eigen::Vector3d(1, 2, 3));
   ASSERT_EQ(plain->warnings.size(), 1U);
   EXPECT_NE(plain->warnings[0].find("LiDAR frame"), std::string::npos);
@@ -80,11 +80,11 @@ TEST(GroundTruthTest, KittiOdometryLayout) {
   const TempDir folder;
   write_sweeps(folder, "sequences/07", 1);
   folder.write("poses/07.txt", kitti_row(0, 0, 5) + kitti_row(0, 0, 6));
-  expect_io_error([&] { read_ground_truth(folder / "sequences/07", TruthInstant::kMid); },
+  expect_io_error([&] { read_ground_truth(folder / "sequences/07", PoseInstant::kMid); },
                   {"07.txt", "camera frame", "calib.txt"});
   folder.write("sequences/07/calib.txt", kCalib);
   for (const char* path : {"sequences/07", "sequences/07/"}) {
-    const auto truth = read_ground_truth(folder / path, TruthInstant::kMid);
+    const auto truth = read_ground_truth(folder / path, PoseInstant::kMid);
     ASSERT_TRUE(truth);
     ASSERT_EQ(truth->T_world_lidar.size(), 1U);  // as many as sweeps
     EXPECT_TRUE(truth->T_world_lidar[0].translation().isApprox(Eigen::Vector3d(5, 0, 0)));
@@ -96,8 +96,7 @@ TEST(GroundTruthTest, MalformedFile) {
   const TempDir folder;
   write_sweeps(folder, "d", 1);
   folder.write("d/poses_mid.txt", "1 2 3\n");
-  expect_io_error([&] { read_ground_truth(folder / "d", TruthInstant::kMid); },
-                  {"poses_mid.txt", "line 1", "3 values"});
+  expect_io_error([&] { read_ground_truth(folder / "d", PoseInstant::kMid); }, {"poses_mid.txt", "line 1", "3 values"});
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <functional>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/io_test_util.hpp"

@@ -99,17 +99,13 @@ inline bool reads_or_refuses(const std::function<void()>& read) {
 /// `read` must refuse `whole` cut off at every byte, with a message that has all `parts`.
 inline void expect_refused_cuts(const std::string& whole, const std::function<void(const std::string&)>& read,
                                 std::initializer_list<std::string_view> parts) {
-  for (std::size_t size = 0; size < whole.size(); ++size) {
-    expect_io_error([&] { read(whole.substr(0, size)); }, parts);
-  }
+  for (std::size_t size = 0; size < whole.size(); ++size) expect_io_error([&] { read(whole.substr(0, size)); }, parts);
 }
 
 /// Cut off in every third `round`, and `turned` bytes turned over.
 inline std::string damaged(std::string bytes, int round, int turned, std::mt19937& random) {
   if (round % 3 == 0) bytes.resize(random() % bytes.size());
-  for (int k = 0; k < turned && !bytes.empty(); ++k) {
-    bytes[random() % bytes.size()] = static_cast<char>(random());
-  }
+  for (int k = 0; k < turned && !bytes.empty(); ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
   return bytes;
 }
 

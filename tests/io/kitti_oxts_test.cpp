@@ -98,7 +98,7 @@ fs::path write_drive(const TempDir& folder, bool calibrated = true) {
 TEST(KittiOxtsTest, TheTrajectoryOfTheLidar) {
   const TempDir folder;
   const fs::path drive = write_drive(folder);
-  const auto truth = read_ground_truth(drive, TruthInstant::kMid);
+  const auto truth = read_ground_truth(drive, PoseInstant::kMid);
   ASSERT_TRUE(truth);
   EXPECT_EQ(truth->instant, "stamp");
   EXPECT_TRUE(truth->warnings.empty());
@@ -113,7 +113,7 @@ TEST(KittiOxtsTest, TheTrajectoryOfTheLidar) {
     EXPECT_LT((truth->T_world_lidar[k].translation() - expected.translation()).norm(), 1e-5) << i;
     EXPECT_LT((truth->T_world_lidar[k].linear() - expected.linear()).cwiseAbs().maxCoeff(), 3e-6) << i;
   }
-  EXPECT_EQ(read_ground_truth(drive, TruthInstant::kEnd)->warnings.size(), 1U);  // at the stamps, not at the end
+  EXPECT_EQ(read_ground_truth(drive, PoseInstant::kEnd)->warnings.size(), 1U);  // at the stamps, not at the end
 }
 
 TEST(KittiOxtsTest, OtherTruthGoesBefore) {
@@ -122,13 +122,13 @@ TEST(KittiOxtsTest, OtherTruthGoesBefore) {
   std::string rows;
   for (int i = 1; i < kOxtsSweeps; ++i) rows += test::kitti_row(i, 0, 0);
   folder.write(fs::relative(drive / "poses_velo.txt", folder.path()).string(), rows);
-  EXPECT_EQ(read_ground_truth(drive, TruthInstant::kMid)->file.filename(), "poses_velo.txt");
+  EXPECT_EQ(read_ground_truth(drive, PoseInstant::kMid)->file.filename(), "poses_velo.txt");
 }
 
 TEST(KittiOxtsTest, TheCalibration) {
   const TempDir folder;
   const fs::path drive = write_drive(folder, false);
-  const auto read = [&] { read_ground_truth(drive, TruthInstant::kMid); };
+  const auto read = [&] { read_ground_truth(drive, PoseInstant::kMid); };
   expect_io_error(read, {"oxts", "no calib_imu_to_velo.txt", "2011_09_26", "unpack it beside the drive"});
   for (const char* text : {"R: 1 0 0\nT: 0 0 0\n", "T: 0 0 0\n", "R: 1 0 0 0 1 0 0 0 1\n",
                            "R: 2 0 0 0 1 0 0 0 1\nT: 0 0 0\n", "R: 1 0 0 0 1 0 0 0 -1\nT: 0 0 0\n"}) {
@@ -136,14 +136,14 @@ TEST(KittiOxtsTest, TheCalibration) {
     expect_io_error(read, {"calib_imu_to_velo.txt", "R: with the 9 numbers of a rotation"});
   }
   std::ofstream(drive / "calib_imu_to_velo.txt") << kCalibration;  // in the drive itself, before that of the day
-  EXPECT_EQ(read_ground_truth(drive, TruthInstant::kMid)->T_world_lidar.size(), kOxtsSweeps - 1U);
+  EXPECT_EQ(read_ground_truth(drive, PoseInstant::kMid)->T_world_lidar.size(), kOxtsSweeps - 1U);
 }
 
 TEST(KittiOxtsTest, DamagedDrives) {
   const TempDir folder;
   const fs::path drive = write_drive(folder);
   const fs::path file = drive / "oxts/data" / (number_of(3) + ".txt");
-  const auto read = [&] { read_ground_truth(drive, TruthInstant::kMid); };
+  const auto read = [&] { read_ground_truth(drive, PoseInstant::kMid); };
   const auto refused = [&](const std::string& text, std::initializer_list<std::string_view> parts) {
     std::ofstream(file) << text;
     expect_io_error(read, parts);
@@ -164,7 +164,9 @@ TEST(KittiOxtsTest, RealDriveAsComputedElsewhere) {
   const char* told = std::getenv("RILO_SHARED");
   const fs::path shared = told != nullptr ? fs::path(told) : fs::path(RILO_SOURCE_DIR).parent_path() / "shared";
   const fs::path archive = shared / "data/kitti_raw_0001.tar.xz";
-  if (!fs::exists(archive)) GTEST_SKIP() << "no ../shared/data/kitti_raw_0001.tar.xz";
+  if (!fs::exists(archive)) {
+    GTEST_SKIP() << "no ../shared/data/kitti_raw_0001.tar.xz";
+  }
   const TempDir folder;
   const std::string command = "tar -xJf '" + archive.string() + "' -C '" + folder.path().string() +
                               "' kitti_raw_0001/oxts_poses.txt kitti_raw_0001/poses_velo.txt";
@@ -183,7 +185,7 @@ TEST(KittiOxtsTest, RealDriveAsComputedElsewhere) {
     ++count;
   }
   folder.write("d/calib_imu_to_velo.txt", kCalibration);
-  const auto truth = read_ground_truth(folder / "d", TruthInstant::kMid);
+  const auto truth = read_ground_truth(folder / "d", PoseInstant::kMid);
   const auto expected = read_kitti_poses(folder / "kitti_raw_0001/poses_velo.txt");
   ASSERT_EQ(truth->T_world_lidar.size(), expected.size());
   ASSERT_EQ(expected.size(), 108U);

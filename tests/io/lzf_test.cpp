@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "io/sweep_writer.hpp"
+
 namespace rilo {
 namespace {
 
@@ -14,7 +16,7 @@ TEST(LzfTest, RoundTrip) {
     for (const unsigned letters : {1U, 2U, 7U, 256U}) {
       std::string text(size, '\0');
       for (char& letter : text) letter = static_cast<char>(random() % letters);
-      const std::string packed = detail::lzf_compress(text);
+      const std::string packed = lzf_compress(text);
       EXPECT_LE(packed.size(), size + size / 32 + 1);
       std::string unpacked(size, 'x');
       EXPECT_FALSE(detail::lzf_decompress(packed, unpacked));

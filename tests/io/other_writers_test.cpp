@@ -1,6 +1,5 @@
 // Clouds written by other programs: PCL 1.13 (pcl_convert_pcd_ascii_binary, pcl_pcd2ply) and meshio 5.0.0,
 // all of the same four points, one of them NaN.
-#include <array>
 
 #include "io/io_test_util.hpp"
 #include "rilo/io/cloud_reader.hpp"

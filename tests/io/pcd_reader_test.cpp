@@ -81,7 +81,7 @@ TEST(PcdTest, TimeFieldAsTold) {
 TEST(PcdTest, CompressedWithoutItsPadding) {
   const TempDir folder;
   const std::string plain = bytes_of<float>({1, 2, 10, 20, 100, 200});
-  const std::string packed = detail::lzf_compress(plain);
+  const std::string packed = lzf_compress(plain);
   const auto sizes =
       bytes_of<std::uint32_t>({static_cast<std::uint32_t>(packed.size()), static_cast<std::uint32_t>(plain.size())});
   const std::string header =

@@ -1,5 +1,3 @@
-#include "io/prefetch_source.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "io/io_test_util.hpp"
+#include "io/source_wrappers.hpp"
 
 namespace rilo {
 namespace {
@@ -59,9 +58,11 @@ class CountingSource final : public ScanSource {
 
 struct Fixture {
   std::atomic<std::size_t> reads{0};
-  PrefetchSource source;
+  std::unique_ptr<ScanSource> reading_ahead;
+  ScanSource& source;
   explicit Fixture(CountingSource::Script script = {}, std::size_t depth = 4)
-      : source(std::make_unique<CountingSource>(std::move(script), reads), depth) {}
+      : reading_ahead(detail::with_read_ahead(std::make_unique<CountingSource>(std::move(script), reads), depth)),
+        source(*reading_ahead) {}
 };
 
 TEST(PrefetchSourceTest, SameOrderAndSameWords) {

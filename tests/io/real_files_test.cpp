@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string>
 
 #include "io/io_test_util.hpp"
 #include "rilo/io/cloud_reader.hpp"

@@ -1,6 +1,3 @@
-#include <cmath>
-#include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -128,7 +125,7 @@ TEST(SequenceSourceTest, WrittenDriveComesBack) {
   EXPECT_EQ(sweep->intensities, written.intensities);
   EXPECT_EQ(sweep->stamp_ns, 1'500'000'001);
   for (std::size_t i = 0; i < fractions.size(); ++i) EXPECT_NEAR(sweep->times_s.at(i), written.times_s[i], 1e-7F);
-  const auto truth = read_ground_truth(folder.path(), TruthInstant::kMid);
+  const auto truth = read_ground_truth(folder.path(), PoseInstant::kMid);
   EXPECT_EQ(truth->T_world_lidar.at(0).matrix(), pose.matrix());
 }
 

@@ -1,9 +1,8 @@
-#include "io/stamp_order.hpp"
-
 #include <cmath>
 
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
+#include "io/source_wrappers.hpp"
 
 namespace rilo {
 namespace {

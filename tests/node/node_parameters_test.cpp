@@ -5,9 +5,9 @@
 
 #include <gmock/gmock.h>
 
-#include "config/config_keys.hpp"
 #include "io/io_test_util.hpp"
 #include "rilo/config/config_file.hpp"
+#include "rilo/config/config_key.hpp"
 
 namespace rilo {
 namespace {

@@ -1,6 +1,5 @@
 #include "birds_eye.hpp"
 
-#include <cmath>
 #include <limits>
 #include <png.h>
 
@@ -18,9 +17,7 @@ std::vector<std::uint8_t> decoded(const std::string& text) {
   unsigned int buffer = 0;
   int bits = 0;
   for (const char c : text) {
-    if (c == '=') {
-      break;
-    }
+    if (c == '=') break;
     buffer = buffer << 6U | static_cast<unsigned int>(digits.find(c));
     bits += 6;
     if (bits >= 8) {
@@ -36,12 +33,8 @@ std::vector<Eigen::Vector3f> yard(float ground_m) {
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i <= 400; ++i) {
     const float x = 0.1F * static_cast<float>(i);
-    for (int j = 0; j <= 200; ++j) {
-      points.emplace_back(x, 0.1F * static_cast<float>(j), ground_m);
-    }
-    for (int j = 0; j <= 50; ++j) {
-      points.emplace_back(x, 10.0F, ground_m + 0.1F * static_cast<float>(j));
-    }
+    for (int j = 0; j <= 200; ++j) points.emplace_back(x, 0.1F * static_cast<float>(j), ground_m);
+    for (int j = 0; j <= 50; ++j) points.emplace_back(x, 10.0F, ground_m + 0.1F * static_cast<float>(j));
   }
   return points;
 }
@@ -56,9 +49,7 @@ std::uint8_t pixel_at(const BirdsEyeMap& map, double x, double y) {
 std::vector<Eigen::Vector3f> sparse_field() {
   std::vector<Eigen::Vector3f> points;
   for (int x = 0; x <= 60; ++x) {
-    for (int y = 0; y <= 60; ++y) {
-      points.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0F);
-    }
+    for (int y = 0; y <= 60; ++y) points.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0F);
   }
   points.emplace_back(30.0F, 30.0F, 2.0F);
   return points;
@@ -87,9 +78,7 @@ TEST(Png, DecodesToTheSamePicture) {
   std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(header));
   ASSERT_NE(png_image_finish_read(&header, nullptr, rgba.data(), 0, nullptr), 0) << header.message;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      EXPECT_EQ(rgba[4 * i + k], image.palette[image.pixels[i]][k]) << i << ' ' << k;
-    }
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(rgba[4 * i + k], image.palette[image.pixels[i]][k]) << i << ' ' << k;
   }
 }
 
@@ -107,9 +96,7 @@ TEST(BirdsEye, ColoursByHeightAboveTheLocalGround) {
 
 TEST(BirdsEye, YGoesUpAndEmptyIsTransparent) {
   std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 2000; ++i) {
-    points.emplace_back(0.01F * static_cast<float>(i), 0.0F, 0.0F);
-  }
+  for (int i = 0; i < 2000; ++i) points.emplace_back(0.01F * static_cast<float>(i), 0.0F, 0.0F);
   points.emplace_back(0.0F, 10.0F, 0.0F);
   SE3 corner = SE3::Identity();
   corner.translation() = Eigen::Vector3d(0, 10, 0);

@@ -1,7 +1,6 @@
 // The page that compares several runs.
 #include <limits>
 #include <regex>
-#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +21,7 @@ RunReport named(RunReport run, const std::string& name, const std::string& seque
   return run;
 }
 
-std::string compared(const std::vector<RunReport>& runs) { return page(ReportPage{"", {}, runs, {}}); }
+std::string compared(const std::vector<RunReport>& runs) { return html_report(ReportPage{"", {}, runs, {}}); }
 
 /// Data of the comparisons, after those of an overview and before those of the runs.
 nlohmann::json first_comparison(const std::string& html) {
@@ -75,8 +74,8 @@ TEST(Comparison, SequencesAreGroupedAndOverviewed) {
 
 TEST(Comparison, HostileNamesAreText) {
   const std::string evil = "</script><img src=x onerror=alert(1)> & \"'<!--";
-  const std::string html =
-      page(ReportPage{evil, {evil}, {named(drive(30), evil, evil), named(drive(31), evil + "2", evil + "3")}, {}});
+  const std::string html = html_report(
+      ReportPage{evil, {evil}, {named(drive(30), evil, evil), named(drive(31), evil + "2", evil + "3")}, {}});
   expect_sound(html);
   EXPECT_THAT(html, Not(HasSubstr("<img")));
   EXPECT_THAT(html, HasSubstr("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt; &amp; &quot;&#39;&lt;!--"));
@@ -91,7 +90,7 @@ TEST(Comparison, RunsWithoutTruthSweepsOrPoses) {
   bare.map_points.clear();
   RunReport empty;
   RunReport broken = drive(40);
-  broken.sweeps[3].total_ms = std::numeric_limits<double>::quiet_NaN();
+  broken.sweeps[3].stats.times.total_ms = std::numeric_limits<double>::quiet_NaN();
   const std::string html =
       compared({named(drive(40), "full"), named(bare, "bare"), named(empty, "empty"), named(broken, "broken")});
   expect_sound(html);
@@ -119,7 +118,7 @@ TEST(Comparison, RecordedFiguresStandInForLostTruth) {
 TEST(Comparison, NoticesAreShown) {
   RunReport cut = named(drive(40), "cut");
   cut.notice = "The run was interrupted.";
-  const std::string html = page(ReportPage{"", {"different sweeps"}, {cut, named(drive(40), "whole")}, {}});
+  const std::string html = html_report(ReportPage{"", {"different sweeps"}, {cut, named(drive(40), "whole")}, {}});
   EXPECT_THAT(html, HasSubstr("<p class=\"notice\">different sweeps</p>"));
   EXPECT_THAT(html, HasSubstr("<p class=\"notice\"><b>cut:</b> The run was interrupted.</p>"));
 }

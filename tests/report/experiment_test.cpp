@@ -57,7 +57,7 @@ TEST(ExperimentPage, ShowsMeansFailuresAndData) {
   e.notice = "The benchmark was interrupted.";
   e.facts = {{"Command", "rilo bench <x>"}};
   e.sensitivities = {{"coarse.sigma", {{0.5, "A"}, {1.0, "full"}}, "full"}};
-  const std::string html = page(ReportPage{"", {}, {}, {e}});
+  const std::string html = html_report(ReportPage{"", {}, {}, {e}});
   expect_sound(html);
   EXPECT_THAT(html, HasSubstr("<h2>Ablation</h2>"));
   EXPECT_THAT(html, HasSubstr("The benchmark was interrupted."));
@@ -77,7 +77,7 @@ TEST(ExperimentPage, WithoutAnyFigure) {
   e.title = "All failed";
   e.figures = {{"ape", "APE", "m", 3}};
   e.cells = {{"s", "c", false, {}, "no data"}};
-  const std::string html = page(ReportPage{"", {}, {}, {e}});
+  const std::string html = html_report(ReportPage{"", {}, {}, {e}});
   expect_sound(html);
   EXPECT_THAT(html, HasSubstr("No cell has any figure."));
   EXPECT_THAT(html.substr(0, html.find("<script>")), Not(HasSubstr("data-chart=\"cells\"")));

@@ -1,7 +1,6 @@
 #include "report/report_pages.hpp"
 
 #include <regex>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,9 +38,7 @@ void expect_balanced(std::string html) {
   const std::regex tag("<(/?)([a-z0-9]+)[^<>]*>");
   for (std::sregex_iterator it(html.begin(), html.end(), tag), end; it != end; ++it) {
     const std::string name = (*it)[2];
-    if (name == "meta") {
-      continue;
-    }
+    if (name == "meta") continue;
     if ((*it)[1].length() == 0) {
       open.push_back(name);
       continue;
@@ -68,31 +65,23 @@ RunReport drive(std::size_t n, double scale) {
     run.truth.push_back(T);
     T.translation() *= scale;
     run.estimate.push_back(T);
-    ReportSweep sweep;
-    sweep.total_ms = 10.0 + s / 10.0;
-    sweep.preprocess_ms = 3.0;
-    sweep.registration_ms = 6.0;
-    sweep.iterations = 7;
-    sweep.inlier_ratio = 0.875;
-    sweep.sigma_th_m = 0.25;
-    sweep.status = i == 0 ? "initialising" : "ok";
-    sweep.initial_pose = i == 0 ? "identity" : "prediction";
+    SweepResult sweep;
+    sweep.status = i == 0 ? OdometryStatus::kInitialising : OdometryStatus::kOk;
+    sweep.stats.initial_pose = i == 0 ? InitialPoseSource::kIdentity : InitialPoseSource::kPrediction;
+    sweep.stats.iterations = 7;
+    sweep.stats.inlier_ratio = 0.875;
+    sweep.stats.sigma_th_m = 0.25;
+    sweep.stats.times.total_ms = 10.0 + s / 10.0;
+    sweep.stats.times.preprocess_ms = 3.0;
+    sweep.stats.times.registration_ms = 6.0;
     run.sweeps.push_back(sweep);
     run.map_points.emplace_back(static_cast<float>(s), 5.0F, 1.0F);
   }
-  if (n >= 2) {
-    run.evaluation = evaluate(run.truth, run.estimate);
-  }
+  if (n >= 2) run.evaluation = evaluate(run.truth, run.estimate);
   return run;
 }
 
-std::string page(const RunReport& run) { return page(ReportPage{"", {}, {run}, {}}); }
-
-std::string page(const ReportPage& page) {
-  std::ostringstream out;
-  write_html_report(page, out);
-  return out.str();
-}
+std::string page(const RunReport& run) { return html_report({"", {}, {run}, {}}); }
 
 std::vector<nlohmann::json> data_of(const std::string& html) {
   const std::string open = "<script type=\"application/json\">";
@@ -110,9 +99,7 @@ void expect_sound(const std::string& html) {
   EXPECT_THAT(text, Not(HasSubstr("http://")));
   EXPECT_THAT(text, Not(HasSubstr("https://")));
   EXPECT_THAT(text, Not(HasSubstr("@import")));
-  for (const char* wrong : {"nan", "NaN", "inf<", "infm", "-inf"}) {
-    EXPECT_THAT(text, Not(HasSubstr(wrong)));
-  }
+  for (const char* wrong : {"nan", "NaN", "inf<", "infm", "-inf"}) EXPECT_THAT(text, Not(HasSubstr(wrong)));
   expect_balanced(html);
 }
 

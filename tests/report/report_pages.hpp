@@ -14,8 +14,8 @@ namespace rilo::test {
 /// A drive of `n` sweeps along x, estimated `scale` times too long; sweep i took 10 + i / 10 ms.
 RunReport drive(std::size_t n, double scale = 1.01);
 
+/// The page of that run alone.
 std::string page(const RunReport& run);
-std::string page(const ReportPage& page);
 
 /// The JSON blocks in the order of the page.
 std::vector<nlohmann::json> data_of(const std::string& html);

@@ -3,7 +3,6 @@
 
 #include "results/metrics_json.hpp"
 #include "results/run_metrics.hpp"
-#include "results/run_summary.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {

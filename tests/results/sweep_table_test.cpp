@@ -1,8 +1,6 @@
 // sweeps.csv: what is written is read back.
 #include "results/sweep_table.hpp"
 
-#include <algorithm>
-
 #include <gmock/gmock.h>
 
 #include "io/io_test_util.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // One key of a configuration file: name, type, range, unit, meaning, source, and its member.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -106,5 +105,8 @@ class ConfigKeys : public KeyVisitor {
 
   std::vector<ConfigSection> sections_;
 };
+
+/// Every key of the odometry's `config`, which must outlive them.
+ConfigKeys odometry_keys(OdometryConfig& config);
 
 }  // namespace rilo

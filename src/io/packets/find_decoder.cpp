@@ -9,7 +9,6 @@
 #include "io/packets/ouster.hpp"
 #include "io/packets/velodyne.hpp"
 #include "io/scan_listing.hpp"
-#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -55,19 +54,14 @@ Contents contents_of(PacketStream& stream) {
 
 // The .json files in `folder` that are metadata of an Ouster, by name.
 std::vector<fs::path> metadata_in(const fs::path& folder) {
-  std::vector<fs::path> found;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (lower_case(entry->path().extension().string()) != ".json") continue;
+  std::vector<fs::path> found = files_with(folder, {".json"});
+  std::erase_if(found, [](const fs::path& file) {
     try {
-      static_cast<void>(read_ouster_metadata(entry->path()));
-      found.push_back(entry->path());
+      static_cast<void>(read_ouster_metadata(file));
+      return false;
     } catch (const IoError&) {
-      // Some other JSON.
+      return true;  // some other JSON
     }
-  }
-  std::sort(found.begin(), found.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().string(), b.filename().string());
   });
   return found;
 }
@@ -113,9 +107,7 @@ fs::path find_metadata(const fs::path& path, const Contents& contents) {
 std::unique_ptr<PacketDecoder> find_decoder(PacketStream& stream, const fs::path& path, const SourceOptions& options,
                                             const RecordedMetadata& recorded) {
   const Contents contents = contents_of(stream);
-  if (!contents.velodyne.empty()) {
-    return velodyne_decoder(velodyne_model(contents.velodyne, path, options.sensor_file));
-  }
+  if (!contents.velodyne.empty()) return velodyne_decoder(velodyne_model(contents.velodyne, path, options.sensor_file));
   OusterMetadata metadata;
   std::string where;
   if (options.sensor_file.empty() && !recorded.text.empty()) {

@@ -1,21 +1,14 @@
 // One frame of an Ouster after the other.
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "io/packets/ouster.hpp"
+#include "io/raw_bytes.hpp"
 
 namespace rilo::detail {
 namespace {
-
-template <typename T>
-T get(std::string_view bytes, std::size_t at) {
-  T value{};
-  std::memcpy(&value, bytes.data() + at, sizeof(value));
-  return value;
-}
 
 const char* name_of(OusterProfile profile) {
   switch (profile) {
@@ -38,11 +31,13 @@ struct Pixel {
 
 Pixel pixel_at(std::string_view bytes, OusterProfile profile, std::size_t at) {
   constexpr double kMillimetres = 1e-3;
-  const auto word = get<std::uint32_t>(bytes, at);
-  const auto byte = [&](std::size_t offset) { return static_cast<float>(get<std::uint8_t>(bytes, at + offset)); };
+  const auto word = load_bytes<std::uint32_t>(bytes, at);
+  const auto byte = [&](std::size_t offset) {
+    return static_cast<float>(load_bytes<std::uint8_t>(bytes, at + offset));
+  };
   switch (profile) {
     case OusterProfile::kLegacy:
-      return {(word & 0xFFFFF) * kMillimetres, static_cast<float>(get<std::uint16_t>(bytes, at + 4))};
+      return {(word & 0xFFFFF) * kMillimetres, static_cast<float>(load_bytes<std::uint16_t>(bytes, at + 4))};
     case OusterProfile::kRng15:
       return {(word & 0x7FFF) * 8 * kMillimetres, byte(2)};
     case OusterProfile::kRng19:
@@ -73,13 +68,13 @@ class OusterDecoder final : public PacketDecoder {
     for (std::size_t i = 0; i < metadata_.columns_per_packet; ++i) {
       const std::string_view column = payload.substr(layout_.packet_header + i * column_bytes, column_bytes);
       const bool legacy = metadata_.profile == OusterProfile::kLegacy;
-      const auto frame = legacy ? get<std::uint16_t>(column, 10) : get<std::uint16_t>(payload, 2);
-      const bool valid = legacy ? get<std::uint32_t>(column, column_bytes - 4) == 0xFFFFFFFF
-                                : (get<std::uint16_t>(column, 10) & 1) != 0;
+      const auto frame = legacy ? load_bytes<std::uint16_t>(column, 10) : load_bytes<std::uint16_t>(payload, 2);
+      const bool valid = legacy ? load_bytes<std::uint32_t>(column, column_bytes - 4) == 0xFFFFFFFF
+                                : (load_bytes<std::uint16_t>(column, 10) & 1) != 0;
       if (!valid) continue;
       begin_frame(frame, done);
       const std::int64_t sensor_ns =
-          static_cast<std::int64_t>(get<std::uint64_t>(column, 0) & (~std::uint64_t{0} >> 1));
+          static_cast<std::int64_t>(load_bytes<std::uint64_t>(column, 0) & (~std::uint64_t{0} >> 1));
       add_column(column, clock_.stamp_ns(sensor_ns, received_ns));
     }
   }
@@ -101,7 +96,7 @@ class OusterDecoder final : public PacketDecoder {
   }
 
   void add_column(std::string_view column, std::int64_t time_ns) {
-    const std::size_t id = get<std::uint16_t>(column, 8);
+    const std::size_t id = load_bytes<std::uint16_t>(column, 8);
     if (id >= metadata_.columns_per_frame) return;
     ++columns_;
     const double turned =

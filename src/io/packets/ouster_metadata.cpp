@@ -1,5 +1,3 @@
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "io/text.hpp"
+#include "io/raw_bytes.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -21,8 +21,7 @@ constexpr std::uint8_t kUdp = 17;
 
 // Network byte order.
 std::uint16_t big_endian16(std::string_view bytes, std::size_t at) {
-  return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[at]) << 8 |
-                                    static_cast<unsigned char>(bytes[at + 1]));
+  return load_bytes<std::uint16_t>(bytes, at, true);
 }
 
 std::optional<std::string_view> after(std::string_view bytes, std::size_t count) {

@@ -1,11 +1,9 @@
 // Velodyne's packets of 1206 bytes.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,11 +1,11 @@
 // One revolution of a Velodyne after the other.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <utility>
 
 #include "io/packets/velodyne.hpp"
+#include "io/raw_bytes.hpp"
 
 namespace rilo::detail {
 namespace {
@@ -15,12 +15,6 @@ constexpr std::size_t kBlockBytes = 100;
 constexpr std::size_t kLasersABlock = 32;
 constexpr int kTurn = 36000;  // hundredths of a degree
 constexpr unsigned char kDual = 0x39;
-
-std::uint16_t little_endian16(std::string_view bytes, std::size_t at) {
-  std::uint16_t value = 0;
-  std::memcpy(&value, bytes.data() + at, sizeof(value));
-  return value;
-}
 
 class VelodyneDecoder final : public PacketDecoder {
  public:
@@ -38,8 +32,7 @@ class VelodyneDecoder final : public PacketDecoder {
   }
 
   void take(std::string_view payload, std::int64_t received_ns, std::deque<DecodedSweep>& done) override {
-    std::uint32_t hour_us = 0;
-    std::memcpy(&hour_us, payload.data() + kBlocks * kBlockBytes, sizeof(hour_us));
+    const auto hour_us = load_bytes<std::uint32_t>(payload, kBlocks * kBlockBytes);
     const std::int64_t stamp_ns = clock_.stamp_ns(std::int64_t{hour_us} * 1000, received_ns);
     dual_ = !model_.two_banks && static_cast<unsigned char>(payload[kVelodynePacket - 2]) == kDual;
     const std::size_t group = dual_ || model_.two_banks ? 2 : 1;  // blocks of the same firing
@@ -50,7 +43,7 @@ class VelodyneDecoder final : public PacketDecoder {
       const std::string_view flag = bytes.substr(0, 2);
       if (flag != "\xFF\xEE" && flag != "\xFF\xDD") continue;
       const std::size_t firings_before = block / group * model_.firings_a_block;
-      const int azimuth = little_endian16(bytes, 2) % kTurn;
+      const int azimuth = load_bytes<std::uint16_t>(bytes, 2) % kTurn;
       find_rate(payload, block, group, azimuth);
       look_for_the_rear(azimuth, done);
       add_block(bytes, flag == "\xFF\xDD", azimuth, stamp_ns, static_cast<double>(firings_before));
@@ -68,7 +61,7 @@ class VelodyneDecoder final : public PacketDecoder {
   void find_rate(std::string_view payload, std::size_t block, std::size_t group, int azimuth) {
     constexpr int kMostAStep = 300;  // 3°: more means that packets are missing or the motor starts
     if (block + group >= kBlocks) return;
-    const int next = little_endian16(payload, (block + group) * kBlockBytes + 2) % kTurn;
+    const int next = load_bytes<std::uint16_t>(payload, (block + group) * kBlockBytes + 2) % kTurn;
     const int step = (next - azimuth + kTurn) % kTurn;
     if (step > kMostAStep) return;
     rate_ = step / (model_.firing_us * static_cast<double>(model_.firings_a_block));
@@ -90,7 +83,7 @@ class VelodyneDecoder final : public PacketDecoder {
 
   void add_block(std::string_view bytes, bool lower, int azimuth, std::int64_t stamp_ns, double first_firing) {
     for (std::size_t k = 0; k < kLasersABlock; ++k) {
-      const std::uint16_t distance = little_endian16(bytes, 4 + 3 * k);
+      const std::uint16_t distance = load_bytes<std::uint16_t>(bytes, 4 + 3 * k);
       if (distance == 0) continue;
       const std::size_t in_block = k / model_.lasers.size();  // the second firing of 16 lasers
       const std::size_t index = k % model_.lasers.size() + (model_.two_banks && lower ? kLasersABlock : 0);

@@ -1,5 +1,6 @@
 // The sensors of Velodyne, from their manuals.
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <span>
 #include <utility>

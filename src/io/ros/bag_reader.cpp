@@ -5,7 +5,6 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/file_bytes.hpp"

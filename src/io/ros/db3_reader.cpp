@@ -5,7 +5,6 @@
 #include <memory>
 #include <sqlite3.h>
 #include <string>
-#include <utility>
 
 #include "io/ros/recording.hpp"
 #include "io/ros/unpack.hpp"
@@ -131,9 +130,7 @@ class Db3Reader final : public Recording {
   void select(const RecordedTopic& topic) override {
     std::string ids;
     for (std::size_t i = 0; i < topics_.size(); ++i) {
-      if (topics_[i].has_same_messages(topic)) {
-        ids += (ids.empty() ? "" : ", ") + std::to_string(ids_[i]);
-      }
+      if (topics_[i].has_same_messages(topic)) ids += (ids.empty() ? "" : ", ") + std::to_string(ids_[i]);
     }
     // In the order of the rows: they are read one by one, whatever the size of the file.
     rows_ = database_.prepare("SELECT id, timestamp, data FROM messages WHERE topic_id IN (" + ids + ") ORDER BY id");

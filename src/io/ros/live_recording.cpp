@@ -1,8 +1,10 @@
-#include "io/ros/live_recording.hpp"
-
+// Messages that arrive now, in the shape of a recording.
 #include <string>
 #include <utility>
 #include <variant>
+
+#include "io/ros/recording.hpp"
+#include "rilo/io/live_queue.hpp"
 
 namespace rilo::detail {
 namespace {

@@ -3,10 +3,8 @@
 #include <limits>
 #include <memory>
 #include <set>
-#include <utility>
 #include <zlib.h>
 
-#include "io/ros/mcap_file.hpp"
 #include "io/ros/mcap_records.hpp"
 #include "io/ros/recording.hpp"
 #include "io/ros/unpack.hpp"

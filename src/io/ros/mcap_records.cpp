@@ -1,5 +1,11 @@
 #include "io/ros/mcap_records.hpp"
 
+#include <algorithm>
+#include <utility>
+
+#include "io/ros/unpack.hpp"
+#include "rilo/io/io_error.hpp"
+
 namespace rilo::detail::mcap {
 
 void Channels::add_schema(ByteCursor cursor) {
@@ -59,6 +65,50 @@ std::map<std::uint16_t, std::uint64_t> take_message_counts(ByteCursor cursor) {
     counts[id] = pairs.take<std::uint64_t>("message count");
   }
   return counts;
+}
+
+RecordFile::RecordFile(const std::filesystem::path& path) : file_(path) {
+  if (file_.size() >= kMagic.size()) file_.read(0, kMagic.size(), bytes_);
+  if (std::string_view(bytes_.data(), bytes_.size()) == kMagic) return;
+  const bool small = file_.size() < kMagic.size();
+  throw IoError({path, "byte 0", small ? "a file of " + std::to_string(file_.size()) + " bytes" : "other bytes",
+                 "the start of an MCAP file, 89 4d 43 41 50 30 0d 0a",
+                 "Check what kind of file this is; the recorder may not have got to write anything"});
+}
+
+std::optional<Record> RecordFile::record_at(std::uint64_t offset) {
+  if (offset >= file_.size()) return std::nullopt;
+  Record record{Opcode::kHeader, offset, offset + kRecordHeader, 0};
+  if (file_.size() - offset >= kRecordHeader) {
+    file_.read(offset, kRecordHeader, bytes_);
+    const BytesOrigin origin = origin_of(offset);
+    ByteCursor cursor({bytes_.data(), bytes_.size()}, origin);
+    record.opcode = static_cast<Opcode>(cursor.take<std::uint8_t>("opcode"));
+    record.length = cursor.take<std::uint64_t>("length");
+    if (record.length <= file_.size() - record.content) return record;
+  }
+  note_cut(offset);
+  return std::nullopt;
+}
+
+std::string_view RecordFile::content_of(const Record& record) {
+  if (record.length > kLargestUnpacked) {
+    throw IoError({file_.path(), "byte " + std::to_string(record.offset),
+                   "a record of " + std::to_string(record.length) + " bytes",
+                   "at most " + std::to_string(kLargestUnpacked), "The file is damaged: copy or record it again"});
+  }
+  file_.read(record.content, static_cast<std::size_t>(record.length), bytes_);
+  return {bytes_.data(), bytes_.size()};
+}
+
+BytesOrigin RecordFile::origin_of(std::uint64_t offset) const {
+  return {file_.path(), "record at byte " + std::to_string(offset)};
+}
+
+void RecordFile::note_cut(std::uint64_t offset) {
+  const std::string warning = file_.path().string() + ": cut off in the record at byte " + std::to_string(offset) +
+                              ": what comes before it is used";
+  if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
 }
 
 }  // namespace rilo::detail::mcap

@@ -1,9 +1,10 @@
-#include "io/ros/recorded_packets.hpp"
-
+// The packets in the messages of a recording.
 #include <utility>
 
 #include "io/packets/find_decoder.hpp"
 #include "io/packets/packet_source.hpp"
+#include "io/ros/driver_messages.hpp"
+#include "io/ros/recording_source.hpp"
 #include "io/ros/scan_topic.hpp"
 #include "rilo/io/io_error.hpp"
 
@@ -35,49 +36,67 @@ RecordedMetadata recorded_metadata(Recording& recording, const RecordedTopic& pa
   return {parse_text_message(message->bytes, encoding_of(*topic), message->file, part), part};
 }
 
-}  // namespace
+class RecordedPackets final : public PacketStream {
+ public:
+  // `topic`: one of recording->topics() that holds packets.
+  RecordedPackets(std::unique_ptr<Recording> recording, RecordedTopic topic)
+      : recording_(std::move(recording)), topic_(std::move(topic)) {
+    restart();
+  }
 
-RecordedPackets::RecordedPackets(std::unique_ptr<Recording> recording, RecordedTopic topic)
-    : recording_(std::move(recording)), topic_(std::move(topic)) {
-  restart();
-}
-
-void RecordedPackets::restart() {
-  recording_->select(topic_);
-  packets_.clear();
-  next_packet_ = 0;
-  messages_ = 0;
-}
-
-std::optional<Datagram> RecordedPackets::next() {
-  while (next_packet_ == packets_.size()) {
+  // Back to the first packet.
+  void restart() {
+    recording_->select(topic_);
     packets_.clear();
     next_packet_ = 0;
-    const auto message = recording_->next();
-    if (!message) return std::nullopt;
-    ++messages_;
-    unpack(*message);
+    messages_ = 0;
   }
-  const RecordedPacket& packet = packets_[next_packet_++];
-  return Datagram{packet.received_ns, 0, packet.data};
-}
 
-void RecordedPackets::unpack(const RecordedMessage& message) {
-  const std::string part = "message " + std::to_string(messages_) + " of " + topic_.name;
-  if (scan_form(topic_) == ScanForm::kVelodynePackets) {
-    VelodyneScan scan = parse_velodyne_scan(message.bytes, encoding_of(topic_), message.file, part);
-    frame_id_ = std::move(scan.frame_id);
-    packets_ = std::move(scan.packets);
-    for (RecordedPacket& packet : packets_) {
-      if (packet.received_ns == 0) packet.received_ns = message.received_ns;
+  std::optional<Datagram> next() override {
+    while (next_packet_ == packets_.size()) {
+      packets_.clear();
+      next_packet_ = 0;
+      const auto message = recording_->next();
+      if (!message) return std::nullopt;
+      ++messages_;
+      unpack(*message);
     }
-    return;
+    const RecordedPacket& packet = packets_[next_packet_++];
+    return Datagram{packet.received_ns, 0, packet.data};
   }
-  std::string_view packet = parse_ouster_packet(message.bytes, encoding_of(topic_), message.file, part);
-  // Ouster's first drivers gave the buffer a byte more than the packet, whose size is a multiple of four.
-  if (packet.size() % 4 == 1) packet.remove_suffix(1);
-  packets_.push_back({message.received_ns, packet});
-}
+
+  std::string format() const override { return recording_->format(); }
+  std::string frame_id() const override { return frame_id_; }
+  bool is_mixed() const override { return false; }
+  std::vector<std::string> warnings() const override { return recording_->warnings(); }
+
+ private:
+  void unpack(const RecordedMessage& message) {
+    const std::string part = "message " + std::to_string(messages_) + " of " + topic_.name;
+    if (scan_form(topic_) == ScanForm::kVelodynePackets) {
+      VelodyneScan scan = parse_velodyne_scan(message.bytes, encoding_of(topic_), message.file, part);
+      frame_id_ = std::move(scan.frame_id);
+      packets_ = std::move(scan.packets);
+      for (RecordedPacket& packet : packets_) {
+        if (packet.received_ns == 0) packet.received_ns = message.received_ns;
+      }
+      return;
+    }
+    std::string_view packet = parse_ouster_packet(message.bytes, encoding_of(topic_), message.file, part);
+    // Ouster's first drivers gave the buffer a byte more than the packet, whose size is a multiple of four.
+    if (packet.size() % 4 == 1) packet.remove_suffix(1);
+    packets_.push_back({message.received_ns, packet});
+  }
+
+  std::unique_ptr<Recording> recording_;
+  RecordedTopic topic_;
+  std::string frame_id_;
+  std::vector<RecordedPacket> packets_;  // of the last message
+  std::size_t next_packet_ = 0;
+  std::size_t messages_ = 0;
+};
+
+}  // namespace
 
 std::unique_ptr<ScanSource> open_packet_topic(const std::filesystem::path& path, std::unique_ptr<Recording> recording,
                                               const RecordedTopic& topic, const SourceOptions& options) {
@@ -86,7 +105,7 @@ std::unique_ptr<ScanSource> open_packet_topic(const std::filesystem::path& path,
   auto stream = std::make_unique<RecordedPackets>(std::move(recording), topic);
   auto decoder = find_decoder(*stream, path, options, metadata);
   stream->restart();
-  return std::make_unique<PacketSource>(path, topic.name, std::move(stream), std::move(decoder), options);
+  return packet_source(path, topic.name, std::move(stream), std::move(decoder), options);
 }
 
 }  // namespace rilo::detail

@@ -13,7 +13,11 @@
 
 #include "rilo/io/point_cloud2.hpp"
 
-namespace rilo::detail {
+namespace rilo {
+
+class LiveQueue;
+
+namespace detail {
 
 struct RecordedTopic {
   std::string name;
@@ -76,7 +80,12 @@ std::unique_ptr<Recording> open_rosbag2(const std::filesystem::path& folder);
 /// A ROS 1 bag. @throws IoError where this build has no librosbag-storage.
 std::unique_ptr<Recording> open_bag(const std::filesystem::path& file);
 
+/// Messages that arrive now. The first selection gives those of the looking ahead and keeps them, the next one gives
+/// them again and goes on.
+std::unique_ptr<Recording> open_live(std::shared_ptr<LiveQueue> queue);
+
 /// Several files that continue each other; one is open at a time.
 std::unique_ptr<Recording> open_in_turn(std::vector<std::filesystem::path> files, const OpenRecording& open);
 
-}  // namespace rilo::detail
+}  // namespace detail
+}  // namespace rilo

@@ -4,11 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "io/ros/livox_message.hpp"
-#include "io/ros/recorded_packets.hpp"
+#include "io/ros/driver_messages.hpp"
 #include "io/ros/scan_topic.hpp"
 #include "io/scan_listing.hpp"
 #include "io/stamp_difference.hpp"
+#include "io/sweep_timing.hpp"
+#include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
 namespace {
@@ -29,9 +30,7 @@ void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, con
     return;
   }
   PointCloud2 parsed;
-  if (message.cloud == nullptr) {
-    parsed = parse_point_cloud2(message.bytes, encoding_of(topic), message.file, part);
-  }
+  if (message.cloud == nullptr) parsed = parse_point_cloud2(message.bytes, encoding_of(topic), message.file, part);
   const PointCloud2& cloud = message.cloud == nullptr ? parsed : *message.cloud;
   into.stamp_ns = cloud.stamp_ns;
   into.frame_id = cloud.frame_id;
@@ -47,109 +46,123 @@ PointTimeHints hints_of(const RecordedTopic& topic, const SourceOptions& options
   return hints;
 }
 
-}  // namespace
+class RecordingSource final : public ScanSource {
+ public:
+  // `topic`: one of recording->topics() with clouds (PointCloud2, Livox CustomMsg).
+  RecordingSource(const std::filesystem::path& path, std::unique_ptr<Recording> recording, RecordedTopic topic,
+                  const SourceOptions& options)
+      : recording_(std::move(recording)), options_(options), topic_(std::move(topic)) {
+    info_.kind = "recording";
+    info_.path = path;
+    info_.topic = topic_.name;
+    if (topic_.messages) info_.sweeps = static_cast<std::size_t>(*topic_.messages);
+    look_ahead();
+  }
 
-RecordingSource::RecordingSource(const std::filesystem::path& path, std::unique_ptr<Recording> recording,
-                                 RecordedTopic topic, const SourceOptions& options)
-    : recording_(std::move(recording)), options_(options), topic_(std::move(topic)) {
-  info_.kind = "recording";
-  info_.path = path;
-  info_.topic = topic_.name;
-  if (topic_.messages) info_.sweeps = static_cast<std::size_t>(*topic_.messages);
-  look_ahead();
-}
+  std::optional<Sweep> next() override {
+    while (true) {
+      try {
+        const auto message = recording_->next();
+        if (!message) return std::nullopt;
+        current_ = cursor_++;
+        return decode(*message);
+      } catch (const IoError& error) {
+        if (options_.on_bad_sweep == OnBadSweep::kFail) throw;
+        note_bad_sweep(error, info_);
+      }
+    }
+  }
 
-// The first messages give the period and say whether there are point times.
-void RecordingSource::look_ahead() {
-  constexpr std::size_t kLookedAt = 12;
-  std::vector<std::int64_t> stamps;
-  std::optional<std::string> promised;
-  recording_->select(topic_);
-  for (std::size_t i = 0; i < kLookedAt; ++i) {
+  std::size_t skip(std::size_t count) override {
+    const std::size_t skipped = recording_->skip(count);
+    cursor_ += skipped;
+    return skipped;
+  }
+
+  std::optional<std::size_t> size() const override { return info_.sweeps; }
+  std::size_t current_index() const override { return current_; }
+
+  std::string current_name() const override {
+    return file_.string() + ", message " + std::to_string(current_ + 1) + " of " + topic_.name;
+  }
+
+  SourceInfo info() const override {
+    SourceInfo info = info_;
+    info.format = recording_->format();  // the compression shows on the way
+    info.has_point_times = timing_->has_times();
+    info.point_times = timing_->description();
+    for (std::string& warning : recording_->warnings()) info.warnings.push_back(std::move(warning));
+    add_bad_sweep_count(info);
+    return info;
+  }
+
+ private:
+  // The first messages give the period and say whether there are point times.
+  void look_ahead() {
+    constexpr std::size_t kLookedAt = 12;
+    std::vector<std::int64_t> stamps;
+    std::optional<std::string> promised;
+    recording_->select(topic_);
+    for (std::size_t i = 0; i < kLookedAt; ++i) {
+      CloudMessage cloud;
+      try {
+        const auto message = recording_->next();
+        if (!message) break;
+        parse_cloud(*message, topic_, options_.time_field, "", cloud);
+        if (cloud.cloud.times) promised = "field " + cloud.cloud.times->field;
+      } catch (const IoError&) {
+        // Reported when it is reached.
+      }
+      if (!cloud.stamp_ns) continue;
+      stamps.push_back(*cloud.stamp_ns);
+      info_.frame_id = cloud.frame_id;
+    }
+    recording_->select(topic_);
+    const auto gap_s = median_gap_s(stamps);
+    info_.period_s = gap_s.value_or(1 / options_.assumed_rate_hz);
+    PointTimeHints hints = hints_of(topic_, options_);
+    hints.period_s = gap_s;
+    hints.assumed_period_s = info_.period_s;
+    timing_.emplace(options_, hints, info_.period_s);
+    timing_->promise(promised);
+  }
+
+  Sweep decode(const RecordedMessage& message) {
+    file_ = message.file;
+    const std::string part = "message " + std::to_string(current_ + 1) + " of " + topic_.name;
     CloudMessage cloud;
-    try {
-      const auto message = recording_->next();
-      if (!message) break;
-      parse_cloud(*message, topic_, options_.time_field, "", cloud);
-      if (cloud.cloud.times) promised = "field " + cloud.cloud.times->field;
-    } catch (const IoError&) {
-      // Reported when it is reached.
-    }
-    if (!cloud.stamp_ns) continue;
-    stamps.push_back(*cloud.stamp_ns);
-    info_.frame_id = cloud.frame_id;
+    parse_cloud(message, topic_, options_.time_field, part, cloud);
+    info_.frame_id = std::move(cloud.frame_id);
+    RawCloud& columns = cloud.cloud;
+    Sweep sweep;
+    sweep.stamp_ns = *cloud.stamp_ns;
+    sweep.points = std::move(columns.points);
+    sweep.intensities = std::move(columns.intensities);
+    sweep.rings = std::move(columns.rings);
+    timing_->apply(columns.times, current_name(), 0, sweep);
+    note_lateness(stamp_difference(message.received_ns, *cloud.stamp_ns));
+    return sweep;
   }
-  recording_->select(topic_);
-  const auto gap_s = median_gap_s(stamps);
-  info_.period_s = gap_s.value_or(1 / options_.assumed_rate_hz);
-  PointTimeHints hints = hints_of(topic_, options_);
-  hints.period_s = gap_s;
-  hints.assumed_period_s = info_.period_s;
-  timing_.emplace(options_, hints, info_.period_s);
-  timing_->promise(promised);
-}
 
-std::optional<Sweep> RecordingSource::next() {
-  while (true) {
-    try {
-      const auto message = recording_->next();
-      if (!message) return std::nullopt;
-      current_ = cursor_++;
-      return decode(*message);
-    } catch (const IoError& error) {
-      if (options_.on_bad_sweep == OnBadSweep::kFail) throw;
-      note_bad_sweep(error, info_);
-    }
+  // A sweep is late when it reached the recorder more than a period later than the promptest one.
+  void note_lateness(std::int64_t late_ns) {
+    usual_delay_ns_ = std::min(usual_delay_ns_.value_or(late_ns), late_ns);
+    const double late_s = (static_cast<double>(late_ns) - static_cast<double>(*usual_delay_ns_)) * 1e-9;
+    if (late_s <= info_.period_s) return;
+    ++info_.faults.late;
+    info_.faults.most_late_s = std::max(info_.faults.most_late_s, late_s);
   }
-}
 
-std::size_t RecordingSource::skip(std::size_t count) {
-  const std::size_t skipped = recording_->skip(count);
-  cursor_ += skipped;
-  return skipped;
-}
-
-std::string RecordingSource::current_name() const {
-  return file_.string() + ", message " + std::to_string(current_ + 1) + " of " + topic_.name;
-}
-
-SourceInfo RecordingSource::info() const {
-  SourceInfo info = info_;
-  info.format = recording_->format();  // the compression shows on the way
-  info.has_point_times = timing_->has_times();
-  info.point_times = timing_->description();
-  for (std::string& warning : recording_->warnings()) info.warnings.push_back(std::move(warning));
-  add_bad_sweep_count(info);
-  return info;
-}
-
-Sweep RecordingSource::decode(const RecordedMessage& message) {
-  file_ = message.file;
-  const std::string part = "message " + std::to_string(current_ + 1) + " of " + topic_.name;
-  CloudMessage cloud;
-  parse_cloud(message, topic_, options_.time_field, part, cloud);
-  info_.frame_id = std::move(cloud.frame_id);
-  RawCloud& columns = cloud.cloud;
-  Sweep sweep;
-  sweep.stamp_ns = *cloud.stamp_ns;
-  sweep.points = std::move(columns.points);
-  sweep.intensities = std::move(columns.intensities);
-  sweep.rings = std::move(columns.rings);
-  timing_->apply(columns.times, current_name(), 0, sweep);
-  note_lateness(stamp_difference(message.received_ns, *cloud.stamp_ns));
-  return sweep;
-}
-
-// A sweep is late when it reached the recorder more than a period later than the promptest one.
-void RecordingSource::note_lateness(std::int64_t late_ns) {
-  usual_delay_ns_ = std::min(usual_delay_ns_.value_or(late_ns), late_ns);
-  const double late_s = (static_cast<double>(late_ns) - static_cast<double>(*usual_delay_ns_)) * 1e-9;
-  if (late_s <= info_.period_s) return;
-  ++info_.faults.late;
-  info_.faults.most_late_s = std::max(info_.faults.most_late_s, late_s);
-}
-
-namespace {
+  std::unique_ptr<Recording> recording_;
+  SourceOptions options_;
+  RecordedTopic topic_;
+  SourceInfo info_;
+  std::optional<SweepTiming> timing_;
+  std::filesystem::path file_;
+  std::size_t cursor_ = 0;   // of the next message
+  std::size_t current_ = 0;  // of the last one
+  std::optional<std::int64_t> usual_delay_ns_;
+};
 
 // Of the first message that can be read.
 std::string frame_of(Recording& recording, const RecordedTopic& topic) {

@@ -12,6 +12,7 @@
 #include "io/ros/recording.hpp"
 #include "io/ros/unpack.hpp"
 #include "io/scan_listing.hpp"
+#include "io/temporary_folder.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
@@ -86,15 +87,9 @@ bool is_storage(const fs::path& file) {
 
 // Where the recorder was killed there is no metadata.yaml: the files are taken as they are.
 std::vector<fs::path> files_without_metadata(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (is_storage(entry->path())) files.push_back(entry->path());
-  }
+  std::vector<fs::path> files = files_with(folder, {".db3", ".mcap", ".zstd"});
+  std::erase_if(files, [](const fs::path& file) { return !is_storage(file); });
   if (files.empty()) reject(folder, "", "no .db3 and no .mcap", "the files of a rosbag2");
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().string(), b.filename().string());
-  });
   return files;
 }
 
@@ -135,8 +130,8 @@ class PackedMessages final : public Wrapped {
 // A packed file is unpacked onto the disk; messages name the packed one.
 class PackedFile final : public Wrapped {
  public:
-  PackedFile(std::unique_ptr<TemporaryFile> unpacked, std::filesystem::path packed)
-      : Wrapped(open_storage(unpacked->path())), unpacked_(std::move(unpacked)), packed_(std::move(packed)) {}
+  PackedFile(std::unique_ptr<TemporaryFolder> folder, const fs::path& unpacked, fs::path packed)
+      : Wrapped(open_storage(unpacked)), folder_(std::move(folder)), packed_(std::move(packed)) {}
   std::string format() const override { return inner_->format() + ", file in zstd"; }
   std::optional<RecordedMessage> next() override {
     auto message = inner_->next();
@@ -145,15 +140,16 @@ class PackedFile final : public Wrapped {
   }
 
  private:
-  std::unique_ptr<TemporaryFile> unpacked_;
-  std::filesystem::path packed_;
+  std::unique_ptr<TemporaryFolder> folder_;
+  fs::path packed_;
 };
 
 std::unique_ptr<Recording> open_maybe_packed(const fs::path& file) {
   if (!has_suffix(file, ".zstd")) return open_storage(file);
-  auto unpacked = std::make_unique<TemporaryFile>(file.stem().extension().string());
-  unpack_zstd_file(file, unpacked->path());
-  return std::make_unique<PackedFile>(std::move(unpacked), file);
+  auto folder = std::make_unique<TemporaryFolder>("rilo");
+  const fs::path unpacked = folder->path() / file.stem();
+  unpack_zstd_file(file, unpacked);
+  return std::make_unique<PackedFile>(std::move(folder), unpacked, file);
 }
 
 }  // namespace

@@ -9,9 +9,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/raw_bytes.hpp"
-#include "io/ros/message_stamp.hpp"
-#include "io/ros/ros_covariance.hpp"
-#include "io/unit_quaternion.hpp"
+#include "io/ros/pose_messages.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
@@ -62,7 +60,6 @@ struct Serializer<rilo::detail::BagMessage<Type>> {
 namespace rilo {
 namespace {
 
-using detail::append_bytes;
 using detail::BagMessage;
 
 ros::Time ros_time(std::int64_t stamp_ns, std::int64_t least_ns) {
@@ -71,50 +68,24 @@ ros::Time ros_time(std::int64_t stamp_ns, std::int64_t least_ns) {
   return {stamp.seconds, stamp.nanoseconds};
 }
 
-void append_text(std::string& bytes, const std::string& text) {
-  append_bytes(bytes, static_cast<std::uint32_t>(text.size()));
-  bytes += text;
-}
+// The fields follow each other without padding; the header has a number before its stamp.
+struct Ros1Message {
+  template <typename T>
+  void put(T value) {
+    detail::append_bytes(bytes, value);
+  }
+  void put_text(const std::string& text) {
+    put(static_cast<std::uint32_t>(text.size()));
+    bytes += text;
+  }
+  void put_stamp(std::int64_t stamp_ns) {
+    const ros::Time stamp = ros_time(stamp_ns, 0);
+    for (const std::uint32_t value : {number, stamp.sec, stamp.nsec}) put(value);
+  }
 
-void append_vector(std::string& bytes, const Eigen::Vector3d& v) {
-  for (const double value : {v.x(), v.y(), v.z()}) append_bytes(bytes, value);
-}
-
-// Header, child_frame_id, and where the sensor is: the beginning of both messages.
-void append_stamped_pose(std::string& bytes, const SweepResult& result, std::uint32_t number,
-                         const RecordingNames& names) {
-  const ros::Time stamp = ros_time(result.stamp_ns, 0);
-  for (const std::uint32_t value : {number, stamp.sec, stamp.nsec}) append_bytes(bytes, value);
-  append_text(bytes, names.odom_frame);
-  append_text(bytes, names.lidar_frame);
-  append_vector(bytes, result.T_odom_lidar.translation());
-  const Eigen::Quaterniond q = detail::unit_quaternion(result.T_odom_lidar);
-  for (const double value : {q.x(), q.y(), q.z(), q.w()}) append_bytes(bytes, value);
-}
-
-// Symmetric: the storage order does not matter.
-void append_covariance(std::string& bytes, const Matrix6d& covariance) {
-  for (const double value : covariance.reshaped()) append_bytes(bytes, value);
-}
-
-BagMessage<nav_msgs::Odometry> bag_odometry(const SweepResult& result, double step_s, std::uint32_t number,
-                                            const RecordingNames& names) {
-  BagMessage<nav_msgs::Odometry> message;
-  append_stamped_pose(message.bytes, result, number, names);
-  append_covariance(message.bytes, ros_pose_covariance(result.T_odom_lidar, result.covariance));
-  append_vector(message.bytes, result.twist.tail<3>());
-  append_vector(message.bytes, result.twist.head<3>());
-  append_covariance(message.bytes, ros_twist_covariance(result.covariance, step_s));
-  return message;
-}
-
-BagMessage<tf2_msgs::TFMessage> bag_transform(const SweepResult& result, std::uint32_t number,
-                                              const RecordingNames& names) {
-  BagMessage<tf2_msgs::TFMessage> message;
-  append_bytes(message.bytes, std::uint32_t{1});
-  append_stamped_pose(message.bytes, result, number, names);
-  return message;
-}
+  std::uint32_t number = 0;
+  std::string bytes = {};
+};
 
 }  // namespace
 
@@ -125,10 +96,13 @@ void write_bag(const std::filesystem::path& file, std::span<const SweepResult> r
   try {
     rosbag::Bag bag(target.temporary().string(), rosbag::bagmode::Write);
     for (std::size_t i = 0; i < results.size(); ++i) {
-      const auto number = static_cast<std::uint32_t>(i);
+      Ros1Message odometry{static_cast<std::uint32_t>(i)};
+      Ros1Message transform{odometry.number};
+      detail::put_odometry(odometry, results, i, names);
+      detail::put_transform(transform, results[i], names);
       const ros::Time time = ros_time(results[i].stamp_ns, 1);
-      bag.write(names.odometry_topic, time, bag_odometry(results[i], detail::step_to(results, i), number, names));
-      bag.write(names.tf_topic, time, bag_transform(results[i], number, names));
+      bag.write(names.odometry_topic, time, BagMessage<nav_msgs::Odometry>{odometry.bytes});
+      bag.write(names.tf_topic, time, BagMessage<tf2_msgs::TFMessage>{transform.bytes});
     }
     bag.close();
   } catch (const rosbag::BagException& error) {

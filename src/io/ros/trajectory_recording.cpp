@@ -2,15 +2,11 @@
 
 #include "io/ros/cdr_writer.hpp"
 #include "io/ros/mcap_writer.hpp"
-#include "io/ros/message_stamp.hpp"
-#include "io/ros/ros_covariance.hpp"
-#include "io/unit_quaternion.hpp"
+#include "io/ros/pose_messages.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 namespace {
-
-using detail::CdrWriter;
 
 // Definitions as ROS 2 has them, the types they are made of behind them, each after a line of "=".
 constexpr std::string_view kSeparator =
@@ -50,46 +46,13 @@ std::string tf_definition() {
                      kVector3Definition, kQuaternionDefinition});
 }
 
-void put_header(CdrWriter& cdr, std::int64_t stamp_ns, const RecordingNames& names) {
-  constexpr std::uint32_t kLastSecond = 0x7FFFFFFF;  // builtin_interfaces/Time has int32
-  const detail::MessageStamp stamp = detail::message_stamp(stamp_ns, 0, kLastSecond);
-  cdr.put(static_cast<std::int32_t>(stamp.seconds)).put(stamp.nanoseconds);
-  cdr.put_text(names.odom_frame).put_text(names.lidar_frame);
-}
-
-void put_vector(CdrWriter& cdr, const Eigen::Vector3d& v) { cdr.put(v.x()).put(v.y()).put(v.z()); }
-
-void put_covariance(CdrWriter& cdr, const Matrix6d& covariance) {
-  for (Eigen::Index row = 0; row < 6; ++row) {
-    for (Eigen::Index column = 0; column < 6; ++column) cdr.put(covariance(row, column));
+struct Ros2Message : detail::CdrWriter {
+  void put_stamp(std::int64_t stamp_ns) {
+    constexpr std::uint32_t kLastSecond = 0x7FFFFFFF;  // builtin_interfaces/Time has int32
+    const detail::MessageStamp stamp = detail::message_stamp(stamp_ns, 0, kLastSecond);
+    put(stamp.seconds).put(stamp.nanoseconds);
   }
-}
-
-// Position or translation, then the rotation.
-void put_pose(CdrWriter& cdr, const SE3& T) {
-  const Eigen::Quaterniond q = detail::unit_quaternion(T);
-  put_vector(cdr, T.translation());
-  cdr.put(q.x()).put(q.y()).put(q.z()).put(q.w());
-}
-
-std::string odometry_message(const SweepResult& result, double step_s, const RecordingNames& names) {
-  CdrWriter cdr;
-  put_header(cdr, result.stamp_ns, names);
-  put_pose(cdr, result.T_odom_lidar);
-  put_covariance(cdr, ros_pose_covariance(result.T_odom_lidar, result.covariance));
-  put_vector(cdr, result.twist.tail<3>());
-  put_vector(cdr, result.twist.head<3>());
-  put_covariance(cdr, ros_twist_covariance(result.covariance, step_s));
-  return cdr.bytes();
-}
-
-std::string tf_message(const SweepResult& result, const RecordingNames& names) {
-  CdrWriter cdr;
-  cdr.put(std::uint32_t{1});
-  put_header(cdr, result.stamp_ns, names);
-  put_pose(cdr, result.T_odom_lidar);
-  return cdr.bytes();
-}
+};
 
 }  // namespace
 
@@ -99,9 +62,12 @@ void write_mcap(const std::filesystem::path& file, std::span<const SweepResult> 
       writer.add_channel(names.odometry_topic, "nav_msgs/msg/Odometry", odometry_definition());
   const std::uint16_t tf = writer.add_channel(names.tf_topic, "tf2_msgs/msg/TFMessage", tf_definition());
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const SweepResult& result = results[i];
-    writer.add_message(odometry, result.stamp_ns, odometry_message(result, detail::step_to(results, i), names));
-    writer.add_message(tf, result.stamp_ns, tf_message(result, names));
+    Ros2Message odometry_message;
+    Ros2Message transform;
+    detail::put_odometry(odometry_message, results, i, names);
+    detail::put_transform(transform, results[i], names);
+    writer.add_message(odometry, results[i].stamp_ns, odometry_message.bytes());
+    writer.add_message(tf, results[i].stamp_ns, transform.bytes());
   }
   writer.finish();
 }

@@ -1,17 +1,13 @@
 #include "io/ros/unpack.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 #include <fstream>
 #include <lz4frame.h>
 #include <memory>
 #include <string>
-#include <system_error>
-#include <unistd.h>
 #include <zstd.h>
 
-#include "io/random_access_file.hpp"
+#include "io/file_bytes.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -112,22 +108,6 @@ void unpack_zstd_file(const std::filesystem::path& packed, const std::filesystem
     throw IoError({to, "", "the unpacked " + packed.filename().string() + " cannot be written", "room for it",
                    "Free space there, or set TMPDIR to a folder on a larger disk"});
   }
-}
-
-TemporaryFile::TemporaryFile(const std::string& suffix) {
-  std::string pattern = (std::filesystem::temp_directory_path() / ("rilo-XXXXXX" + suffix)).string();
-  const int descriptor = ::mkstemps(pattern.data(), static_cast<int>(suffix.size()));
-  if (descriptor < 0) {
-    throw IoError({pattern, "", "cannot be made: " + std::generic_category().message(errno), "a temporary file",
-                   "Set TMPDIR to a folder that may be written to"});
-  }
-  ::close(descriptor);
-  path_ = pattern;
-}
-
-TemporaryFile::~TemporaryFile() {
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace rilo::detail

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,20 +20,5 @@ void unpack_lz4(std::string_view packed, std::size_t limit, const BytesOrigin& o
 
 /// Unpacks a file piece by piece. @throws IoError.
 void unpack_zstd_file(const std::filesystem::path& packed, const std::filesystem::path& to);
-
-/// A file in the system's temporary folder that goes away with the object.
-class TemporaryFile {
- public:
-  /// An empty file whose name ends with `suffix`. @throws IoError.
-  explicit TemporaryFile(const std::string& suffix);
-  ~TemporaryFile();
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace rilo::detail

@@ -100,9 +100,7 @@ void expect_turns(ScanSource& source, std::size_t turns, const std::string& form
     EXPECT_NEAR(*std::max_element(sweep.times_s.begin(), sweep.times_s.end()), period_s, 0.1 * period_s);
   }
   Odometry odometry({});
-  for (const Sweep& sweep : sweeps) {
-    EXPECT_LT(odometry.register_sweep(sweep).T_odom_lidar.translation().norm(), 3.0);
-  }
+  for (const Sweep& sweep : sweeps) EXPECT_LT(odometry.register_sweep(sweep).T_odom_lidar.translation().norm(), 3.0);
 }
 
 TEST_F(RealFiles, VelodyneCaptures) {

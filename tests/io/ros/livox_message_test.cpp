@@ -1,8 +1,7 @@
 // CustomMsg of livox_ros_driver and livox_ros_driver2.
-#include "io/ros/livox_message.hpp"
-
 #include <random>
 
+#include "io/ros/driver_messages.hpp"
 #include "io/ros/scan_containers.hpp"
 
 namespace rilo {

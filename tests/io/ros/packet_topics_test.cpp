@@ -2,7 +2,7 @@
 #include <random>
 
 #include "io/packets/packet_bytes.hpp"
-#include "io/ros/packet_messages.hpp"
+#include "io/ros/driver_messages.hpp"
 #include "io/ros/scan_containers.hpp"
 
 namespace rilo {

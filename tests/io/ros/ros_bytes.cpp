@@ -1,6 +1,7 @@
 #include "io/ros/ros_bytes.hpp"
 
 #include <lz4frame.h>
+#include <map>
 #include <sqlite3.h>
 #include <stdexcept>
 #include <zlib.h>

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <string_view>
 #include <utility>

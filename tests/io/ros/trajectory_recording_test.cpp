@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "io/io_test_util.hpp"
-#include "io/ros/mcap_file.hpp"
+#include "io/ros/mcap_records.hpp"
 #include "io/ros/recording.hpp"
 #include "rilo/io/trajectory_files.hpp"
 

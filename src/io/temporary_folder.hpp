@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <string>
 
-namespace rilo {
+namespace rilo::detail {
 
 class TemporaryFolder {
  public:
-  /// In the system's folder for such things, named after `name`. @throws std::system_error
+  /// In the system's folder for such things, named after `name`. @throws IoError
   explicit TemporaryFolder(const std::string& name);
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
@@ -20,4 +20,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace rilo
+}  // namespace rilo::detail

@@ -1,14 +1,19 @@
-#include "console/temporary_folder.hpp"
+#include "io/temporary_folder.hpp"
 
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
 
-namespace rilo {
+#include "rilo/io/io_error.hpp"
+
+namespace rilo::detail {
 
 TemporaryFolder::TemporaryFolder(const std::string& name) {
   std::string pattern = (std::filesystem::temp_directory_path() / (name + "-XXXXXX")).string();
-  if (::mkdtemp(pattern.data()) == nullptr) throw std::system_error(errno, std::generic_category(), pattern);
+  if (::mkdtemp(pattern.data()) == nullptr) {
+    throw IoError({pattern, "", "cannot be made: " + std::generic_category().message(errno), "a temporary folder",
+                   "Set TMPDIR to a folder that may be written to"});
+  }
   path_ = pattern;
 }
 
@@ -17,4 +22,4 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-}  // namespace rilo
+}  // namespace rilo::detail

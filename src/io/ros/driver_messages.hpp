@@ -1,4 +1,4 @@
-// Messages that hold a sensor's packets as they came.
+// Messages of the sensors' own drivers: Livox' clouds, packets as they came, metadata.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,24 @@
 #include <string_view>
 #include <vector>
 
+#include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/point_cloud2.hpp"
 
 namespace rilo::detail {
+
+/// Livox' CustomMsg: of livox_ros_driver and livox_ros_driver2, in ROS 1 and ROS 2 the same fields.
+struct LivoxMessage {
+  std::int64_t stamp_ns = 0;  ///< of the header
+  std::string frame_id;
+  /// m; reflectivities 0 … 255, the lines as rings, `offset_time` in ns since the stamp. Points without a return are
+  /// at the origin.
+  RawCloud cloud;
+};
+
+/// `file` and `part` ("message 17 of /livox/lidar") are for messages.
+/// @throws IoError, with the byte, when the bytes are not a CustomMsg.
+LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
+                         const std::string& part);
 
 /// `data` looks into the bytes it was parsed from.
 struct RecordedPacket {

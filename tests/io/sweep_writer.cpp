@@ -5,17 +5,25 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
-#include <string_view>
+#include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "io/atomic_file.hpp"
-#include "io/lzf.hpp"
 #include "io/raw_bytes.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
 namespace {
+
+void append_literals(std::string& output, std::string_view literals) {
+  constexpr std::size_t kLongest = 32;
+  for (; !literals.empty(); literals.remove_prefix(std::min(kLongest, literals.size()))) {
+    output += static_cast<char>(std::min(kLongest, literals.size()) - 1);
+    output += literals.substr(0, kLongest);
+  }
+}
 
 // One column: its name, its type and how to write value i, as text or as bytes.
 struct Column {
@@ -76,7 +84,7 @@ std::string compressed_columns(const std::filesystem::path& file, const std::vec
   for (const Column& column : columns) {
     for (std::size_t i = 0; i < count; ++i) append_value(plain, column, i, false);
   }
-  const std::string packed = detail::lzf_compress(plain);
+  const std::string packed = lzf_compress(plain);
   constexpr std::size_t kLargest = 0xFFFFFFFF;
   if (std::max(plain.size(), packed.size()) > kLargest) {
     throw IoError(
@@ -147,6 +155,35 @@ void write_ply(const std::filesystem::path& file, const Sweep& sweep, PlyEncodin
   }
   bytes += "end_header\n" + rows_of(columns, sweep.points.size(), text, big_endian);
   write_atomically(file, bytes);
+}
+
+std::string lzf_compress(std::string_view input) {
+  constexpr std::size_t kLongestCopy = 264;
+  constexpr std::size_t kLongestDistance = 8192;
+  constexpr std::size_t kShortestCopy = 3;
+  std::string output;
+  std::unordered_map<std::string_view, std::size_t> last;  // where three bytes were seen
+  std::size_t literals = 0;
+  for (std::size_t place = 0; place + kShortestCopy <= input.size();) {
+    const auto [seen, fresh] = last.try_emplace(input.substr(place, kShortestCopy), place);
+    const std::size_t distance = place - std::exchange(seen->second, place);
+    if (fresh || distance > kLongestDistance) {
+      ++place;
+      continue;
+    }
+    const std::string_view rest = input.substr(place, kLongestCopy);
+    const auto end =
+        std::mismatch(rest.begin(), rest.end(), input.begin() + static_cast<std::ptrdiff_t>(place - distance));
+    const auto length = static_cast<std::size_t>(end.first - rest.begin());
+    append_literals(output, input.substr(literals, place - literals));
+    output += static_cast<char>(std::min<std::size_t>(length - 2, 7) << 5 | (distance - 1) >> 8);
+    if (length >= 9) output += static_cast<char>(length - 9);
+    output += static_cast<char>((distance - 1) & 0xFF);
+    place += length;
+    literals = place;
+  }
+  append_literals(output, input.substr(literals));
+  return output;
 }
 
 }  // namespace rilo

@@ -1,16 +1,19 @@
-// Sweeps to files: for the simulator, for conversion and for tests.
+// Sweeps to files of every form that the readers take.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "io/pcd_header.hpp"
+#include "io/ply_header.hpp"
 #include "rilo/cloud/sweep.hpp"
 
 namespace rilo {
 
-enum class PcdEncoding : std::uint8_t { kAscii, kBinary, kBinaryCompressed };
-enum class PlyEncoding : std::uint8_t { kAscii, kBinaryLittleEndian, kBinaryBigEndian };
+using detail::PcdEncoding;
+using detail::PlyEncoding;
 
 /// float32 x y z intensity (0 when the sweep has none), KITTI's velodyne/*.bin. Times and rings are not kept.
 void write_kitti_bin(const std::filesystem::path& file, const Sweep& sweep);
@@ -22,5 +25,8 @@ void write_floats(const std::filesystem::path& file, const std::vector<float>& v
 void write_pcd(const std::filesystem::path& file, const Sweep& sweep, PcdEncoding encoding = PcdEncoding::kBinary);
 void write_ply(const std::filesystem::path& file, const Sweep& sweep,
                PlyEncoding encoding = PlyEncoding::kBinaryLittleEndian);
+
+/// LZF, as binary_compressed has it; incompressible input grows by 1/32.
+std::string lzf_compress(std::string_view input);
 
 }  // namespace rilo

@@ -1,7 +1,8 @@
-#include "io/ros/livox_message.hpp"
+#include "io/ros/driver_messages.hpp"
 
 #include <utility>
 
+#include "io/packets/velodyne.hpp"
 #include "io/ros/message_cursor.hpp"
 
 namespace rilo::detail {
@@ -39,6 +40,33 @@ LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const
   }
   cloud.times = std::move(times);
   return message;
+}
+
+VelodyneScan parse_velodyne_scan(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
+                                 const std::string& part) {
+  constexpr std::size_t kStampBytes = 8;
+  const BytesOrigin origin{file, part};
+  MessageCursor cursor(bytes, encoding, origin);
+  VelodyneScan scan;
+  scan.frame_id = take_header(cursor, encoding).frame_id;
+  scan.packets.resize(take_count(cursor, kStampBytes + kVelodynePacket, "packets", "VelodyneScan"));
+  for (RecordedPacket& packet : scan.packets) {
+    packet.received_ns = take_stamp_ns(cursor, encoding);
+    packet.data = cursor.take_bytes(kVelodynePacket, "packet");
+  }
+  return scan;
+}
+
+std::string_view parse_ouster_packet(std::string_view bytes, MessageEncoding encoding,
+                                     const std::filesystem::path& file, const std::string& part) {
+  const BytesOrigin origin{file, part};
+  return MessageCursor(bytes, encoding, origin).take_sequence("buf");
+}
+
+std::string parse_text_message(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
+                               const std::string& part) {
+  const BytesOrigin origin{file, part};
+  return MessageCursor(bytes, encoding, origin).take_string("data");
 }
 
 }  // namespace rilo::detail

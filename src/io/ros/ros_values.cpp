@@ -1,4 +1,8 @@
-#include "io/ros/ros_covariance.hpp"
+#include "io/ros/ros_values.hpp"
+
+#include <algorithm>
+
+#include "io/stamp_difference.hpp"
 
 namespace rilo {
 namespace {
@@ -12,6 +16,13 @@ Matrix6d swapped(const Eigen::Matrix3d& R, const Matrix6d& covariance) {
 }
 
 }  // namespace
+
+detail::MessageStamp detail::message_stamp(std::int64_t stamp_ns, std::int64_t least_ns, std::uint32_t last_second) {
+  const std::int64_t last_ns = (std::int64_t{last_second} + 1) * kNanosecondsPerSecond - 1;
+  const std::int64_t known = std::clamp(stamp_ns, least_ns, last_ns);
+  return {static_cast<std::uint32_t>(known / kNanosecondsPerSecond),
+          static_cast<std::uint32_t>(known % kNanosecondsPerSecond)};
+}
 
 Matrix6d ros_pose_covariance(const SE3& T_parent_body, const Matrix6d& covariance) {
   return swapped(T_parent_body.linear(), covariance);

@@ -1,9 +1,23 @@
-// Covariances and twists in the order and the axes that ROS wants.
+// Stamps and covariances as the messages of ROS have them.
 #pragma once
+
+#include <cstdint>
 
 #include "rilo/geometry/se3.hpp"
 
 namespace rilo {
+namespace detail {
+
+struct MessageStamp {
+  std::uint32_t seconds = 0;
+  std::uint32_t nanoseconds = 0;
+};
+
+/// The nearest stamp that a message can have: from `least_ns` (0 or later: no library of ROS takes a negative time) to
+/// the end of the second `last_second`.
+MessageStamp message_stamp(std::int64_t stamp_ns, std::int64_t least_ns, std::uint32_t last_second);
+
+}  // namespace detail
 
 /// geometry_msgs/PoseWithCovariance: `covariance` of a pose (right perturbation, [rad; m], as SweepResult::covariance)
 /// as [position; rotation about fixed axes] about the axes of the parent frame.

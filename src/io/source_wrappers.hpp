@@ -1,0 +1,30 @@
+// What every source is wrapped into.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rilo/io/scan_source.hpp"
+
+namespace rilo::detail {
+
+/// Watches the stamps of `inner`: counts gaps, drops duplicates and sweeps that come after a newer one, and goes
+/// on when the clock was set back. See StampFaults.
+std::unique_ptr<ScanSource> with_stamp_order(std::unique_ptr<ScanSource> inner);
+
+/// Adds `offset_deg` to the elevation angle of every point: a rotation about p × z, range and azimuth stay. Points on
+/// the z axis have no such axis and stay.
+void correct_elevation(std::vector<Eigen::Vector3f>& points, double offset_deg);
+
+/// Applies correct_elevation to every sweep of `inner` and says so in info().
+std::unique_ptr<ScanSource> with_elevation_correction(std::unique_ptr<ScanSource> inner, double offset_deg);
+
+/// Reads up to `depth` sweeps (one at least) ahead on a background thread, which starts at the first next(). The order
+/// and the errors are those of `inner`: an exception is rethrown by the next() that would have thrown it. The
+/// destructor waits for the sweep that is being read.
+std::unique_ptr<ScanSource> with_read_ahead(std::unique_ptr<ScanSource> inner, std::size_t depth);
+
+}  // namespace rilo::detail

@@ -1,11 +1,15 @@
 // Captures of sensors, made byte by byte.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "io/ros/ros_bytes.hpp"
 
@@ -122,5 +126,35 @@ inline const std::vector<OusterShape> kOusterShapes{{"LEGACY", 12, true},
                                                     {"RNG15_RFL8_NIR8", 4, false},
                                                     {"RNG19_RFL8_SIG16_NIR16", 12, false},
                                                     {"RNG19_RFL8_SIG16_NIR16_DUAL", 16, false}};
+
+inline constexpr std::int64_t kCaptureBegin = 1'700'000'123'000'000'000;
+
+// `turns` of a sensor of 10 Hz: packets of 12 blocks of 1°, 30 a turn, from `azimuth` on.
+inline Capture velodyne_drive(std::uint8_t product, double turns, int azimuth = 9000, std::uint32_t hour_us = 100) {
+  Capture capture;
+  const auto packets = static_cast<int>(turns * 30);
+  for (int i = 0; i < packets; ++i) {
+    const std::uint32_t us = (hour_us + static_cast<std::uint32_t>(i) * 3333U) % 3'600'000'000U;
+    capture.udp(kCaptureBegin + i * 3'333'000LL, 2368, velodyne_packet((azimuth + i * 1200) % 36000, 100, us, product));
+    capture.udp(kCaptureBegin + i * 3'333'000LL, 8308, std::string(512, 'g'));  // its GPS
+  }
+  return capture;
+}
+
+// 64 packets a turn, with packets of the IMU in between.
+inline Capture ouster_drive(const OusterShape& shape, std::size_t packets, std::size_t mtu = 65000) {
+  Capture capture;
+  for (std::size_t i = 0; i < packets; ++i) {
+    const std::uint64_t ns = 5'000'000 + i * 1'562'500;
+    capture.udp(kCaptureBegin + static_cast<std::int64_t>(ns), 7502,
+                ouster_packet(shape, static_cast<std::uint16_t>(65535 + i / 64), i % 64 * 16, ns), mtu);
+    capture.udp(kCaptureBegin + static_cast<std::int64_t>(ns), 7503, std::string(48, 'i'));
+  }
+  return capture;
+}
+
+inline double azimuth_deg(const Eigen::Vector3f& point) {
+  return std::atan2(static_cast<double>(point.y()), static_cast<double>(point.x())) * 180 / std::numbers::pi;
+}
 
 }  // namespace rilo::test

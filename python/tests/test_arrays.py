@@ -1,0 +1,139 @@
+"""Which arrays are taken, and what is said of others."""
+
+import numpy as np
+import pytest
+
+import rilo
+
+
+REFUSED_POINTS = [
+    (np.zeros((5, 2), np.float32), r"points: got shape \(5, 2\), float32; expected shape \(N, 3\) or \(N, 4\)"),
+    (np.zeros((3, 100)), r"got shape \(3, 100\), float64; .*Transpose it: points.T"),
+    (np.zeros((5, 6), np.float32), r"got shape \(5, 6\).*points\[:, :3\]"),
+    (np.zeros((5, 3), np.int16), r"got shape \(5, 3\), int16; .*astype"),
+    (np.zeros((5, 3), ">f4"), "got shape .*>f4"),
+    (np.zeros(5, [("x", "f4"), ("y", "f4"), ("z", "f4")]), "Of fields: np.stack"),
+    (np.zeros(12, np.float32), r"got shape \(12,\)"),
+    ("points", "points: got"),
+    (None, "points: got"),
+]
+
+
+@pytest.mark.parametrize("points, message", REFUSED_POINTS)
+def test_other_points_are_refused_with_what_came(points, message):
+    odometry = rilo.Odometry()
+    for call in odometry.register, odometry.register_frame:
+        with pytest.raises(ValueError, match=message):
+            call(points)
+    assert len(odometry) == 0
+
+
+def test_bad_columns_are_refused(drive):
+    points, times, _, _ = drive[0]
+    odometry = rilo.Odometry()
+    with pytest.raises(ValueError, match=f"times_s: 3 values for {len(points)} points"):
+        odometry.register(points, times[:3])
+    with pytest.raises(ValueError, match="times_s: got .*int64; expected float32 or float64, seconds"):
+        odometry.register(points, np.zeros(len(points), np.int64))
+    with pytest.raises(ValueError, match=r"times_s: got shape \(\d+, 1\)"):
+        odometry.register(points, times[:, None])
+    with pytest.raises(ValueError, match="rings: 2 values"):
+        odometry.register(points, times, 0, np.zeros(2, np.uint16))
+    with pytest.raises(ValueError, match="rings: got -1 at index 0"):
+        odometry.register(points, times, 0, np.full(len(points), -1))
+    with pytest.raises(ValueError, match="rings: got .*float64"):
+        odometry.register(points, times, 0, np.zeros(len(points)))
+    with pytest.raises(ValueError, match=r"truth: got shape \(4, 4\), float64; expected poses of shape \(N, 4, 4\)"):
+        rilo.evaluate(np.eye(4), np.eye(4))
+    assert len(odometry) == 0
+    assert odometry.register(np.zeros((0, 3), np.float32)).status == "empty"
+    assert odometry.register(np.full((100, 3), np.nan, np.float32), stamp_ns=1).status == "empty"
+
+
+def test_layouts_types_and_columns_give_the_same_bits(drive, run):
+    expected = run[0].trajectory[:3]
+    wide = [np.hstack([points, np.full((len(points), 1), 7, np.float32)]) for points, *_ in drive[:3]]
+    layouts = {
+        "N x 4": lambda i: wide[i],
+        "float64": lambda i: drive[i][0].astype(np.float64),
+        "N x 4 float64": lambda i: wide[i].astype(np.float64),
+        "columns together": lambda i: np.asfortranarray(drive[i][0]),
+        "every second row": lambda i: np.repeat(drive[i][0], 2, axis=0)[::2],
+        "a slice of columns": lambda i: wide[i][:, :3],
+        "lists": lambda i: drive[i][0].tolist(),
+    }
+    for name, layout in layouts.items():
+        odometry = rilo.Odometry()
+        for i in range(3):
+            times = drive[i][1].astype(np.float64 if "float64" in name else np.float32)
+            odometry.register(layout(i), times, drive[i][2])
+        assert np.array_equal(odometry.trajectory, expected), name
+
+
+def test_rings_of_any_integer_type_are_the_same(drive):
+    points, times, stamp, _ = drive[0]
+    rings = np.arange(len(points)) % 16
+    maps = []
+    for dtype in np.uint16, np.int64, np.uint8:
+        odometry = rilo.Odometry()
+        odometry.register(points, times, stamp, rings.astype(dtype))
+        maps.append(odometry.local_map())
+    assert np.array_equal(maps[0], maps[1]) and np.array_equal(maps[0], maps[2])
+
+
+def test_register_frame_takes_the_drivers_timestamps(drive, run):
+    expected = run[0].trajectory[:4]
+    earliest = [times[np.linalg.norm(points, axis=1) > 0].min() for points, times, *_ in drive]
+    assert min(earliest) >= 0
+    clock = 1_700_000_000
+
+    def poses(stamps_of_points, **options):
+        odometry = rilo.Odometry()
+        for points, times, stamp, _ in drive[:4]:
+            odometry.register_frame(points, stamps_of_points(times, stamp), **options)
+        return odometry
+
+    relative = poses(lambda times, stamp: times)  # 0.1 s apart, as the drive is
+    assert np.array_equal(relative.trajectory, expected)
+    assert np.array_equal(relative.stamps_ns, run[0].stamps_ns[:4])
+    for name, absolute in {
+        "float64 s": lambda times, stamp: clock + stamp * 1e-9 + times.astype(np.float64),
+        "int64 ns": lambda times, stamp: clock * 10**9 + stamp + np.round(times.astype(np.float64) * 1e9).astype(np.int64),
+        "uint64 us": lambda times, stamp: (clock * 10**6 + stamp // 1000 + times.astype(np.float64) * 1e6).astype(np.uint64),
+    }.items():
+        odometry = poses(absolute)
+        assert np.abs(odometry.trajectory - expected).max() < 1e-3, name
+        assert np.abs(odometry.stamps_ns - run[0].stamps_ns[:4] - clock * 10**9).max() < 2_000_000, name
+    fractions = poses(lambda times, stamp: times / np.float32(0.1), point_time_unit="fraction")
+    assert np.abs(fractions.trajectory - expected).max() < 1e-4
+
+
+def test_register_frame_without_timestamps_is_register(drive):
+    one, other = rilo.Odometry(), rilo.Odometry()
+    for i, (points, *_) in enumerate(drive[:3]):
+        one.register_frame(points)
+        other.register(points, None, i * 100_000_000)
+    assert np.array_equal(one.trajectory, other.trajectory) and np.array_equal(one.stamps_ns, other.stamps_ns)
+    one.reset()
+    assert one.register_frame(drive[0][0]).stamp_ns == 0
+
+
+def test_register_frame_refuses_what_cannot_be_told(drive):
+    points, times, _, _ = drive[0]
+    odometry = rilo.Odometry()
+    with pytest.raises(rilo.IoError, match="either seconds or fractions.*point_time_unit"):
+        odometry.register_frame(points, times / np.float32(0.1))
+    with pytest.raises(ValueError, match=r"timestamps: got shape \(3,\), float32; expected shape \(\d+,\)"):
+        odometry.register_frame(points, times[:3])
+    with pytest.raises(ValueError, match="point_time_unit: got 'minutes'; expected infer, s, ms"):
+        odometry.register_frame(points, times, point_time_unit="minutes")
+    assert len(odometry) == 0
+
+
+def test_points_are_used_in_place_and_kept(drive):
+    points = drive[0][0].copy()
+    points.flags.writeable = False
+    odometry = rilo.Odometry()
+    odometry.register(points)
+    odometry.register_frame(points, drive[0][1])
+    assert np.array_equal(points, drive[0][0])

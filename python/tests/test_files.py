@@ -1,0 +1,61 @@
+"""Poses, maps and sweeps in files."""
+
+import numpy as np
+import pytest
+from conftest import SWEEPS
+
+import rilo
+
+
+def test_poses_and_maps_go_to_files_and_back(tmp_path, run):
+    odometry, _ = run
+    poses, stamps = odometry.trajectory, odometry.stamps_ns
+    rilo.write_poses(tmp_path / "a.txt", poses, stamps)
+    stamps_read, poses_read = rilo.read_poses(tmp_path / "a.txt")
+    assert np.array_equal(stamps_read, stamps) and np.abs(poses_read - poses).max() < 1e-8
+    rilo.write_poses(tmp_path / "k.txt", poses[:, :3], format="kitti")
+    assert np.abs(rilo.read_poses(tmp_path / "k.txt", "kitti") - poses).max() < 1e-9
+    rilo.write_poses(tmp_path / "e.csv", poses, stamps, "euroc")
+    assert len((tmp_path / "e.csv").read_text().splitlines()) == SWEEPS + 1
+    with pytest.raises(ValueError, match="stamps_ns: needed for format tum"):
+        rilo.write_poses(tmp_path / "b.txt", poses)
+    with pytest.raises(ValueError, match=r"stamps_ns: got shape \(3,\), int64; expected shape \(12,\)"):
+        rilo.write_poses(tmp_path / "b.txt", poses, stamps[:3])
+    with pytest.raises(ValueError, match="format: got 'csv'"):
+        rilo.write_poses(tmp_path / "b.txt", poses, stamps, "csv")
+    rilo.write_map(tmp_path / "map.pcd", odometry.local_map())
+    assert np.array_equal(next(rilo.open(tmp_path / "map.pcd")).points, odometry.local_map())
+    with pytest.raises(rilo.IoError, match="map.xyz"):
+        rilo.write_map(tmp_path / "map.xyz", odometry.local_map())
+
+
+def test_files_are_read(tmp_path, drive):
+    for i, (points, *_) in enumerate(drive[:3]):
+        np.hstack([points, np.ones((len(points), 1), np.float32)]).tofile(tmp_path / f"{i:06d}.bin")
+    source = rilo.open(str(tmp_path))
+    assert len(source) == 3 and source.format == "bin"
+    sweeps = list(source)
+    for sweep, (points, *_) in zip(sweeps, drive):
+        assert np.array_equal(sweep.points, points) and len(sweep) == len(points)
+        assert sweep.times_s is None and np.all(sweep.intensities == 1)
+    with pytest.raises(rilo.IoError, match="nowhere"):
+        rilo.open(str(tmp_path / "nowhere"))
+    assert rilo.open(tmp_path, rate=4).period_s == 0.25
+    assert next(rilo.open(tmp_path, point_times="azimuth")).times_s is not None
+    assert np.all(next(rilo.open(tmp_path, bin_fields="x,y,z,time", point_time_unit="s")).times_s == 1)
+    one, other = (next(rilo.open(tmp_path, point_times="azimuth", spin=s)) for s in ("clockwise", "counter-clockwise"))
+    assert np.array_equal(one.times_s, -other.times_s)
+    corrected = next(rilo.open(tmp_path, elevation_correction_deg=0.2))
+    assert not np.array_equal(corrected.points, sweeps[0].points)
+    for option in "point_times", "point_time_unit", "point_time_reference", "spin":
+        with pytest.raises(ValueError, match=f"{option}: got 'sometimes'; expected "):
+            rilo.open(str(tmp_path), **{option: "sometimes"})
+
+
+def test_a_bad_sweep_raises_or_is_skipped(tmp_path, drive):
+    for i, (points, *_) in enumerate(drive[:3]):
+        points.tofile(tmp_path / f"{i:06d}.bin")
+    (tmp_path / "000001.bin").write_bytes(b"too short")
+    with pytest.raises(rilo.IoError, match="000001.bin"):
+        list(rilo.open(tmp_path, bin_fields="x,y,z"))
+    assert len(list(rilo.open(tmp_path, bin_fields="x,y,z", skip_bad_sweeps=True))) == 2

@@ -1,0 +1,111 @@
+"""Whole runs, and the command that comes along."""
+
+import os
+import signal
+
+import numpy as np
+import pytest
+from conftest import command
+
+import rilo
+
+
+def test_the_command_comes_along():
+    assert command("--version").stdout == f"rilo {rilo.__version__}\n"
+    wrong = command("run")
+    assert wrong.returncode == 2 and "rilo: error" in wrong.stderr
+
+
+def test_the_command_gives_the_same_bits(tmp_path, recording):
+    out = tmp_path / "out"
+    ran = command("run", recording, "--out", out, "--one-pass", "--quiet")
+    assert ran.returncode == 0, ran.stderr
+    odometry = rilo.Odometry()
+    for sweep in rilo.open(recording):
+        odometry.register(sweep.points, sweep.times_s, sweep.stamp_ns, sweep.rings)
+    rilo.write_poses(tmp_path / "mine.txt", odometry.trajectory, format="kitti")
+    assert (tmp_path / "mine.txt").read_bytes() == (out / "poses_lidar.txt").read_bytes()
+    rilo.write_poses(tmp_path / "mine.tum", odometry.trajectory, odometry.stamps_ns)
+    assert (tmp_path / "mine.tum").read_bytes() == (out / "trajectory.tum").read_bytes()
+    run = rilo.run(recording)
+    assert np.array_equal(run.trajectory, odometry.trajectory) and np.array_equal(run.stamps_ns, odometry.stamps_ns)
+    assert np.array_equal(rilo.run(recording, one_pass=True).trajectory, odometry.trajectory)
+
+
+def test_a_run_is_observed(recording, capfd):
+    seen = []
+    run = rilo.run(recording, count=4, start=2, map_voxel_m=1, progress=True, on_sweep=lambda *seen_now: seen.append(seen_now))
+    assert [index for index, *_ in seen] == run.indices == [2, 3, 4, 5] and len(run) == 4
+    assert [result.stamp_ns for _, result, _ in seen] == run.stamps_ns.tolist()
+    assert all(len(sweep) == result.points_in for _, result, sweep in seen)
+    assert np.array_equal(seen[-1][1].pose, run.trajectory[-1]) and np.array_equal(run.results[-1].pose, run.trajectory[-1])
+    assert len(run.map) > 500 and run.map.dtype == np.float32 and run.started_over_after is None
+    assert "4/4 sweeps" in capfd.readouterr().err
+    assert run.wall_s > 0 and "voxel_m" in run.config and run.warnings == []
+    assert "of 4 sweeps" in repr(run) and "4, " in run._repr_html_()
+    assert len(rilo.run(recording, count=2).map) == 0
+
+
+def test_a_run_restarts_with_the_elevation_offset(tmp_path):
+    drive = tmp_path / "drive"
+    made = command("simulate", "--out", drive, "--sensor", "hdl64", "--sweeps", "30", "--start", "10",
+                   "--elevation-bias", "0.3", "--quiet")  # fmt: skip
+    assert made.returncode == 0, made.stderr
+    restarts = []
+    run = rilo.run(drive, on_restart=lambda *seen: restarts.append(seen))
+    assert len(run) == 30 and len(restarts) == 1
+    assert restarts[0][0] == run.started_over_after and restarts[0][1] > 0.1
+    single = rilo.run(drive, one_pass=True)
+    assert single.started_over_after is None and not np.array_equal(single.trajectory, run.trajectory)
+    assert "restarted after" in run._repr_html_()
+
+
+def test_a_run_has_the_options_of_open_and_refuses_others(recording, tmp_path):
+    bins = tmp_path / "bins"
+    bins.mkdir()
+    for i, sweep in enumerate(list(rilo.open(recording))[:3]):
+        sweep.points.tofile(bins / f"{i}.bin")
+    run = rilo.run(bins, bin_fields="x,y,z", rate=20, point_times="none")
+    assert np.diff(run.stamps_ns).tolist() == [50_000_000] * 2
+    with pytest.raises(TypeError, match="unknown option 'topics'; known: topic, "):
+        rilo.run(bins, topics="/points")
+    with pytest.raises(TypeError, match="unknown option 'unit'"):
+        rilo.open(bins, unit="s")
+    with pytest.raises(rilo.IoError, match="no sweep to run"):
+        rilo.run(bins, bin_fields="x,y,z", start=7)
+    with pytest.raises(rilo.IoError, match="nowhere"):
+        rilo.run(tmp_path / "nowhere")
+    with pytest.raises(rilo.ConfigError, match="voxel"):
+        rilo.run(bins, settings={"map.voxel": 1})
+    with pytest.raises(ValueError, match="map_voxel_m: got 0"):
+        rilo.run(bins, bin_fields="x,y,z", map_voxel_m=0)
+
+
+def test_an_exception_of_an_observer_ends_the_run(recording):
+    seen = []
+
+    def second_is_bad(index, *_):
+        seen.append(index)
+        if index == 1:
+            raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        rilo.run(recording, on_sweep=second_is_bad)
+    assert seen == [0, 1]
+
+
+def test_ctrl_c_ends_the_run(recording):
+    seen = []
+
+    def interrupted(index, *_):
+        seen.append(index)
+        if index == 2:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # as on a terminal, wherever the tests run
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            rilo.run(recording, on_sweep=interrupted)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert seen[-1] in (2, 3)

@@ -1,6 +1,7 @@
 #include "odometry_node.hpp"
 
 #include <chrono>
+#include <functional>
 #include <rclcpp_components/register_node_macro.hpp>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>

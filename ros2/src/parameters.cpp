@@ -2,6 +2,7 @@
 
 #include <rcl_interfaces/msg/parameter_descriptor.hpp>
 #include <stdexcept>
+#include <type_traits>
 
 namespace rilo::ros2 {
 namespace {

@@ -12,15 +12,15 @@
 namespace rilo {
 
 namespace {
-constexpr double kDoubtfulShare = 0.02;  // of a score below the alarm in the usual one
-// The search looks at fewer points and more tolerantly than the score: it only has to find the basin of convergence.
+constexpr double kDoubtfulShare = 0.02;      // of a score below the alarm in the usual one
 constexpr std::size_t kSinglePoints = 5000;  // for candidates that differ by few of them
-constexpr double kSearchSigmaM = 0.3;
-constexpr double kSearchStepM = 0.5;  // within the reach of the coarse stage
+constexpr double kSearchSigmaM = 0.3;        // more tolerant than the score: it only has to find the basin
+constexpr double kSearchStepM = 0.5;         // within the reach of the coarse stage
 constexpr double kSearchStepRad = 0.1;
+constexpr double kSearchShare = 0.6;      // of the time left; the coarse stage from what was found needs the rest
 constexpr std::size_t kSearchStarts = 4;  // the cost of each is one registration
-// A cloud compensated for a slightly wrong velocity is as good a target: at either end of a sweep of 0.1 s its points
-// are off by less than the least noise of the coarse stage.
+// A cloud compensated for a slightly wrong velocity serves as a target: at either end of a sweep of 0.1 s it is off by
+// less than good poses are.
 constexpr double kHalfSweepS = 0.05;
 // A sweep whose score over its residuals is below this share of the usual ratio may have been taken at another time
 // than its stamp: this many periods earlier or later.

@@ -14,6 +14,7 @@
 namespace rilo {
 
 namespace {
+constexpr double kCoarseShare = 0.5;  // of the time left; the rest is for what follows the coarse stage
 constexpr double kLeastCoarse = 0.3;  // of its points; with fewer it finds nothing
 
 std::size_t workers(const OdometryConfig& config) {
@@ -120,11 +121,11 @@ MotionState Pipeline::predict(const PreparedSweep& prepared) {
 InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const MotionState& predicted,
                                           SweepResult& result) {
   const std::function<Vector6d(const SE3&)> twist_at = [&](const SE3& T) { return tracker_.implied_twist(T); };
-  const double left_ms = kSearchShare * (budget_.target_ms() - clock_.total_ms());
+  const double left_ms = kCoarseShare * (budget_.target_ms() - clock_.total_ms());
   const double coarse_share = std::max(kLeastCoarse, budget_.share_in_time(budget_.ms(Work::kCoarseStart), left_ms));
   InitialPose init = initial_pose_.choose({prepared.source, predicted, tracker_.trusted().T_odom_lidar, twist_at,
                                            map_.map(), map_.first_can_be_compensated(), in_doubt(),
-                                           deadline(0.0).after(kSearchShare), coarse_share});
+                                           deadline(0.0).after(kCoarseShare), coarse_share});
   record(init, result.stats);
   result.stats.times.initial_pose_ms = clock_.lap_ms();
   if (!init.coarse_cut) {

@@ -71,6 +71,9 @@ class RegistrationStage {
   SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map) const;
   std::vector<MotionState> other_second_starts(const Registration& found) const;
 
+  /// Of the time left; after a loss, what was found has to hold in the rest of it.
+  static constexpr double kSearchShare = 0.7;
+
   Parts parts_;
   Deadline search_end_;
 };

@@ -6,9 +6,6 @@
 
 namespace rilo {
 
-/// Share of the time left that a search may take: the rest is for what follows it.
-inline constexpr double kSearchShare = 0.6;
-
 /// A time on an injected clock, which it refers to; by default never, without reading a clock. The clock is read from
 /// several threads at once.
 class Deadline {

@@ -1,22 +1,20 @@
 // What the tests of the files share: a folder that goes away, small sweeps, errors looked into.
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <initializer_list>
 #include <iterator>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "io/temporary_folder.hpp"
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/io_error.hpp"
@@ -26,25 +24,12 @@ namespace rilo::test {
 
 class TempDir {
  public:
-  TempDir() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "rilo-io-XXXXXX").string();
-    const char* made = ::mkdtemp(pattern.data());
-    if (made == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = made;
-  }
-  ~TempDir() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TempDir(const TempDir&) = delete;
-  TempDir& operator=(const TempDir&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return folder_.path(); }
+  std::filesystem::path operator/(std::string_view name) const { return path() / name; }
 
   /// Writes a file, making its folder when there is none.
   std::filesystem::path write(std::string_view name, std::string_view bytes) const {
-    std::filesystem::path file = path_ / name;
+    std::filesystem::path file = path() / name;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream stream(file, std::ios::binary);
     stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -52,7 +37,7 @@ class TempDir {
   }
 
  private:
-  std::filesystem::path path_;
+  detail::TemporaryFolder folder_{"rilo-io"};
 };
 
 inline std::string slurp(const std::filesystem::path& file) {

@@ -15,7 +15,7 @@
 
 #include "rilo/node/live_odometry.hpp"
 #include "rilo/odometry/odometry.hpp"
-#include "rilo/simulation/drive_simulator.hpp"
+#include "simulation/small_drive.hpp"
 
 namespace rilo::test {
 
@@ -23,17 +23,10 @@ inline constexpr std::size_t kSweeps = 10;
 
 inline const std::vector<Sweep>& drive() {
   static const std::vector<Sweep> kDrive = [] {
-    DriveConfig config;
-    config.sensor = SensorKind::kVlp16;
-    config.sweeps = kSweeps;
-    config.start_s = 10.0;
-    config.deskewed = true;
-    const DriveSimulator simulator(config);
-    std::vector<Sweep> sweeps;
+    std::vector<Sweep> sweeps = small_drive(kSweeps);
     for (std::size_t i = 0; i < kSweeps; ++i) {
-      sweeps.push_back(simulator.sweep(i).sweep);
-      sweeps.back().stamp_ns = static_cast<std::int64_t>(i + 1) * 100'000'000;
-      sweeps.back().rings.clear();  // the messages here have none
+      sweeps[i].stamp_ns = static_cast<std::int64_t>(i + 1) * 100'000'000;
+      sweeps[i].rings.clear();  // the messages here have none
     }
     return sweeps;
   }();

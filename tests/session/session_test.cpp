@@ -10,7 +10,7 @@
 
 #include "rilo/io/io_error.hpp"
 #include "rilo/session/session_observer.hpp"
-#include "rilo/simulation/drive_simulator.hpp"
+#include "simulation/small_drive.hpp"
 
 namespace rilo {
 namespace {
@@ -19,17 +19,7 @@ constexpr std::size_t kSweeps = 24;
 constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
 const std::vector<Sweep>& drive() {
-  static const std::vector<Sweep> kDrive = [] {
-    DriveConfig config;
-    config.sensor = SensorKind::kVlp16;
-    config.sweeps = kSweeps;
-    config.start_s = 10.0;
-    config.deskewed = true;
-    const DriveSimulator simulator(config);
-    std::vector<Sweep> sweeps;
-    for (std::size_t i = 0; i < kSweeps; ++i) sweeps.push_back(simulator.sweep(i).sweep);
-    return sweeps;
-  }();
+  static const std::vector<Sweep> kDrive = test::small_drive(kSweeps);
   return kDrive;
 }
 

@@ -1,5 +1,7 @@
 #include "calibration/sensor_calibration.hpp"
 
+#include "registration/plane_residuals.hpp"
+
 namespace rilo {
 
 void SensorCalibration::learn(const PreparedSweep& prepared, const IcpResult& icp, double sigma_th_m,

@@ -10,7 +10,7 @@ constexpr double kDrivingS = 20;  // the vehicle is at full speed by then
 
 std::vector<Eigen::Vector3f> compensated(const TimedCloud& cloud, const Vector6d& twist) {
   std::vector<Eigen::Vector3f> out;
-  deskew(cloud, twist, out);
+  deskew(cloud, {twist}, out);
   return out;
 }
 

@@ -14,7 +14,7 @@ void deskew_map_cloud(benchmark::State& state) {
   const TimedCloud& cloud = scene().last.map_cloud;
   std::vector<Eigen::Vector3f> out;
   for (auto _ : state) {
-    deskew(cloud, scene().state.twist, out);
+    deskew(cloud, {scene().state.twist}, out);
     benchmark::DoNotOptimize(out.data());
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(cloud.size()) * state.iterations());

@@ -83,7 +83,10 @@ void add_results(py::module_& module) {
           "position", [](const SweepResult& r) { return Eigen::Vector3d(r.T_odom_lidar.translation()); },
           "Translation of the pose, (3,) float64, m.")
       .def_readonly("twist", &SweepResult::twist,
-                    "Velocity during the sweep, sensor frame: (6,), angular [rad/s], then linear [m/s].")
+                    "Velocity at the time of the pose, sensor frame: (6,), angular [rad/s], then linear [m/s].")
+      .def_readonly("acceleration", &SweepResult::acceleration,
+                    "Change of that velocity during the sweep, sensor frame: (6,), angular [rad/s2], then linear "
+                    "[m/s2]. 0 where it is not known.")
       .def_readonly(
           "covariance", &SweepResult::covariance,
           "Covariance of the pose given the one before, (6, 6), sensor frame: rotation [rad], then translation "

@@ -55,7 +55,7 @@ Sums sums_of(const RegisteredSource& sweep, const LocalMap& map, const PoseDeriv
     J << (world - t).cross(plane.normal), plane.normal;
     sum.mixed.head<6>() += w * c * J;
     if (refine) {
-      sum.mixed.tail<6>() += (w * c * static_cast<double>(sweep.source.offsets_s[i])) * J;
+      sum.mixed.tail<6>() += (w * c * sweep.state.velocity_lever_s(static_cast<double>(sweep.source.offsets_s[i]))) * J;
     }
     sum.square += w * c * c;
     sum.gradient -= w * c * e;

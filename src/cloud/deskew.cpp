@@ -10,37 +10,39 @@ namespace {
 constexpr int kKnots = 129;  // see SweepMotion for the error that is left
 }
 
-SweepMotion::SweepMotion(const Vector6d& twist, float begin_s, float end_s)
-    : omega_(twist.head<3>().cast<float>()), velocity_(twist.tail<3>().cast<float>()), begin_s_(begin_s) {
+SweepMotion::SweepMotion(const BodyMotion& motion, float begin_s, float end_s) : begin_s_(begin_s) {
   const float span = end_s - begin_s;
   last_ = span > 0.0F ? kKnots - 1 : 0;
   inverse_step_ = span > 0.0F ? static_cast<float>(last_) / span : 0.0F;
   knots_.reserve(static_cast<std::size_t>(last_) + 1);
   for (int i = 0; i <= last_; ++i) {
     const float offset = last_ == 0 ? begin_s : begin_s + span * static_cast<float>(i) / static_cast<float>(last_);
-    const SE3 T = se3_exp(twist * static_cast<double>(offset));
-    knots_.push_back({T.linear().cast<float>(), T.translation().cast<float>(), offset});
+    const auto s = static_cast<double>(offset);
+    const SE3 T = se3_exp(s * motion.twist + 0.5 * s * s * motion.acceleration);
+    const Vector6d twist = motion.twist + s * motion.acceleration;
+    knots_.push_back({T.linear().cast<float>(), T.translation().cast<float>(), twist.head<3>().cast<float>(),
+                      twist.tail<3>().cast<float>(), offset});
   }
 }
 
-SweepMotion SweepMotion::during(const TimedCloud& cloud, const Vector6d& twist) {
+SweepMotion SweepMotion::during(const TimedCloud& cloud, const BodyMotion& motion) {
   if (!cloud.timed()) {
-    return {twist, 0.0F, 0.0F};
+    return {motion, 0.0F, 0.0F};
   }
   const auto [begin, end] = std::minmax_element(cloud.offsets_s.begin(), cloud.offsets_s.end());
-  return {twist, *begin, *end};
+  return {motion, *begin, *end};
 }
 
-void deskew(const TimedCloud& cloud, const Vector6d& twist, std::vector<Eigen::Vector3f>& out) {
+void deskew(const TimedCloud& cloud, const BodyMotion& motion, std::vector<Eigen::Vector3f>& out) {
   out.resize(cloud.size());
   if (!cloud.timed() || cloud.points.empty()) {
     out = cloud.points;
     return;
   }
-  const SweepMotion motion = SweepMotion::during(cloud, twist);
+  const SweepMotion poses = SweepMotion::during(cloud, motion);
   for_fixed_chunks(cloud.size(), [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      out[i] = motion.compensate(cloud.points[i], cloud.offsets_s[i]);
+      out[i] = poses.compensate(cloud.points[i], cloud.offsets_s[i]);
     }
   });
 }

@@ -96,7 +96,7 @@ InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bo
     restarts_due_ = doubt && found.cut;
   }
   if (doubt && config_.restarts && !found.cut && !is_consistent(found.best.score)) {
-    deskew(situation.source, predicted.twist, compensated_);
+    deskew(situation.source, {predicted.twist}, compensated_);
     for (const SE3& start : restarts(predicted.T_odom_lidar, situation.map, situation.deadline.after(kSearchShare))) {
       try_from(situation, start, found);
       if (situation.single || resumed) {
@@ -133,7 +133,7 @@ double InitialPoseStage::candidate_score(const Situation& situation, const SE3& 
   if (!situation.single) {
     return score(situation.source, {T, twist}, situation.map);
   }
-  deskew(situation.source, twist, compensated_);
+  deskew(situation.source, {twist}, compensated_);
   return map_score(evenly_picked(compensated_, kSinglePoints), situation.map, T, config_.score_sigma_m);
 }
 
@@ -151,7 +151,7 @@ std::vector<SE3> InitialPoseStage::places_on_path(const TimedCloud& source, cons
   const double steps_a_period =
       std::ceil(std::max(period.tail<3>().norm() / kSearchStepM, period.head<3>().norm() / kSearchStepRad));
   const double steps = std::clamp(2.0 * kPeriods * steps_a_period, 1.0, kMostPathSteps);
-  deskew(source, predicted.twist, compensated_);
+  deskew(source, {predicted.twist}, compensated_);
   const auto points = evenly_picked(compensated_, static_cast<std::size_t>(config_.score_points));
   std::vector<ScoredPose> path;
   for (std::size_t k = 0; static_cast<double>(k) <= steps; ++k) {
@@ -181,7 +181,7 @@ std::vector<SE3> InitialPoseStage::restarts(const SE3& centre, const LocalMap& m
 }
 
 double InitialPoseStage::score(const TimedCloud& source, const MotionState& state, const LocalMap& map) {
-  deskew(source, state.twist, compensated_);
+  deskew(source, state.motion(), compensated_);
   const auto points = evenly_picked(compensated_, static_cast<std::size_t>(config_.score_points));
   return map_score(points, map, state.T_odom_lidar, config_.score_sigma_m);
 }
@@ -204,7 +204,7 @@ void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twi
   if (moving_ && moved.head<3>().norm() < kPoseNoiseRad && moved.tail<3>().norm() < kPoseNoiseM) {
     target_ = std::move(moving_);
   } else {
-    deskew(source, twist, target_points_);
+    deskew(source, {twist}, target_points_);
   }
   moving_.reset();
 }

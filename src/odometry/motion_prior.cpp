@@ -22,7 +22,7 @@ Matrix6d unknown_velocity_covariance() {
 }
 
 MotionState expected_motion(const MotionState& last, double dt_s) {
-  MotionState next = last;
+  MotionState next{last.T_odom_lidar, last.twist};
   next.twist.head<3>() *= std::exp(-dt_s / kTurnMemoryS);
   next.T_odom_lidar = last.T_odom_lidar * se3_exp(dt_s * next.twist);
   return next;

@@ -19,7 +19,11 @@ Matrix6d velocity_covariance_of(const IcpResult& icp) {
 }  // namespace
 
 MotionState MotionTracker::predicted(double sigma_th_m) const {
-  return {predict_pose(past_, now_ns_, sigma_th_m, prediction_config_), trusted_state_.twist};
+  MotionState state{predict_pose(past_, now_ns_, sigma_th_m, prediction_config_), trusted_state_.twist};
+  if (past_.size() > 1 && !lost_) {
+    state.earlier = {trusted_state_.twist, since_trusted_s()};
+  }
+  return state;
 }
 
 std::optional<MotionState> MotionTracker::predicted_from_claim() const {

@@ -241,7 +241,9 @@ void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& state
 
 void Pipeline::finish(SweepResult& result) {
   result.T_odom_lidar = tracker_.state().T_odom_lidar;
-  result.twist = tracker_.state().twist;
+  const BodyMotion motion = tracker_.state().motion();
+  result.twist = motion.twist;
+  result.acceleration = motion.acceleration;
   result.stats.map_voxels = map_.map().size();
   record(calibration_, result.stats);
   trajectory_.push_back({result.stamp_ns, result.T_odom_lidar});

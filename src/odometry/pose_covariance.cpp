@@ -10,7 +10,7 @@ namespace {
 // The registration counts one residual in a hundred as independent, so that the prior is not outweighed. Against the
 // truth of the simulator the poses are as good as if it were this many times more (docs/benchmarks.md), except where a
 // direction is hidden: there what the surfaces share in error leaks into the others.
-constexpr double kEvidenceWorth = 18.0;
+constexpr double kEvidenceWorth = 20.0;
 // A velocity that changes steadily by a within the sweep moves its points by a t² / 2 against the middle: a T² / 24 on
 // average over the sweep.
 constexpr double kMeanLag = 1.0 / 24.0;
@@ -44,7 +44,11 @@ Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6
     result += left * left.transpose();
   }
 
-  squared_change_ += kRunningShare * ((icp.state.twist - before).cwiseAbs2() - squared_change_);
+  // The points are compensated for the mean acceleration since the sweep before, which is that of half a sweep ago.
+  const Vector6d change = icp.state.twist - before;
+  const Vector6d missed = icp.state.earlier.lag_s > 0.0 ? Vector6d(0.5 * (change - change_)) : change;
+  change_ = change;
+  squared_change_ += kRunningShare * (missed.cwiseAbs2() - squared_change_);
   result.diagonal() += kMeanLag * kMeanLag * sweep_s * sweep_s * squared_change_;
   uneven_ += kRunningShare * (uneven - uneven_);
   result.diagonal() += kUnevenShare * uneven_;

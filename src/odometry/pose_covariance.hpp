@@ -24,7 +24,9 @@ class PoseCovariance {
   void reset() { *this = {}; }
 
  private:
-  // Means of the last sweeps: change of the velocity from one to the next, and scatter of motion within one.
+  Vector6d change_ = Vector6d::Zero();  // of the velocity to the last sweep
+  // Means of the last sweeps: change of the velocity that points are not compensated for, and scatter of motion within
+  // a sweep.
   Vector6d squared_change_ = Vector6d::Zero();
   Vector6d uneven_ = Vector6d::Zero();
 };

@@ -193,7 +193,7 @@ RegistrationStage::SampleFit RegistrationStage::fit_of(const TimedCloud& sample,
   fit.icp = adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, parts_.config.icp,
                          parts_.deadline);
   std::vector<Eigen::Vector3f> points;
-  deskew(sample, fit.icp.state.twist, points);
+  deskew(sample, fit.icp.state.motion(), points);
   fit.score = map_score(points, map, fit.icp.state.T_odom_lidar, parts_.config.initial_pose.score_sigma_m);
   return {fit.icp.state.T_odom_lidar, quality(fit)};
 }

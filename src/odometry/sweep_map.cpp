@@ -16,7 +16,7 @@ void SweepMap::begin(const TimedCloud& cloud, const MotionState& state, double s
 }
 
 void SweepMap::insert(const TimedCloud& cloud, const MotionState& state, const PoseDerivative& pose_by_elevation) {
-  deskew(cloud, state.twist, points_);
+  deskew(cloud, state.motion(), points_);
   intensities_ = cloud.intensities;
   map_.insert(points_, state.T_odom_lidar, pose_by_elevation);
   map_.evict(state.T_odom_lidar.translation());
@@ -35,7 +35,7 @@ LocalMap SweepMap::of_sweep(const TimedCloud& cloud, const MotionState& state, d
   LocalMap map(config_);
   map.set_scene_range(scene_range_m);
   std::vector<Eigen::Vector3f> points;
-  deskew(cloud, state.twist, points);
+  deskew(cloud, state.motion(), points);
   map.insert(points, state.T_odom_lidar, pose_by_elevation);
   return map;
 }

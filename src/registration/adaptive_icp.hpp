@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "cloud/deskew.hpp"
 #include "cloud/timed_cloud.hpp"
 #include "map/local_map.hpp"
 #include "registration/deadline.hpp"
@@ -16,10 +17,31 @@
 
 namespace rilo {
 
+/// Velocity of the sensor before.
+struct EarlierVelocity {
+  Vector6d twist = Vector6d::Zero();  ///< body velocity [rad/s; m/s]
+  double lag_s = 0;                   ///< so long before; 0: not known
+};
+
 /// Pose and velocity of the sensor at the reference time of a sweep.
 struct MotionState {
   SE3 T_odom_lidar = SE3::Identity();
   Vector6d twist = Vector6d::Zero();  ///< body velocity [rad/s; m/s]
+  EarlierVelocity earlier = {};       ///< from which it changed steadily
+
+  /// During the sweep, at the acceleration since the earlier velocity: none where that is not known.
+  BodyMotion motion() const {
+    BodyMotion motion{twist};
+    if (earlier.lag_s > 0.0) {
+      motion.acceleration = (twist - earlier.twist) / earlier.lag_s;
+    }
+    return motion;
+  }
+
+  /// Derivative (s) of the motion to `offset_s` by the velocity, with which the acceleration changes, too.
+  double velocity_lever_s(double offset_s) const {
+    return earlier.lag_s > 0.0 ? offset_s + 0.5 * offset_s * offset_s / earlier.lag_s : offset_s;
+  }
 };
 
 /// Prior knowledge of the state. Perturbations: rotation and translation of the sensor

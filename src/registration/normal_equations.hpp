@@ -51,9 +51,9 @@ inline PackedSymmetric6 packed(const Matrix6d& m) {
   return h;
 }
 
-/// Sums of weighted residuals e with Jacobian [J, s J], s the offset (s) of the point from the time of the pose: the
-/// second block is the velocity. The three blocks of the Hessian share the products J Jᵀ, so that a velocity costs
-/// little more than none.
+/// Sums of weighted residuals e with Jacobian [J, s J], s the offset (s) of the point from the time of the pose, or the
+/// lever of the velocity at that offset: the second block is the velocity. The three blocks of the Hessian share the
+/// products J Jᵀ, so that a velocity costs little more than none.
 struct NormalEquations {
   PackedSymmetric6 H0 = PackedSymmetric6::Zero();  ///< Σ w J Jᵀ
   PackedSymmetric6 H1 = PackedSymmetric6::Zero();  ///< Σ w s J Jᵀ

@@ -47,7 +47,7 @@ void for_each_residual(const RegisteredSource& sweep, const LocalMap& map, const
   const Eigen::Matrix3d R = sweep.state.T_odom_lidar.linear();
   const Eigen::Vector3d t = sweep.state.T_odom_lidar.translation();
   const double sigma2 = sweep.sigma_th_m * sweep.sigma_th_m;
-  const SweepMotion motion = SweepMotion::during(sweep.source, sweep.state.twist);
+  const SweepMotion motion = SweepMotion::during(sweep.source, sweep.state.motion());
   for_fixed_chunks(sweep.used(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     const auto point_at = [&](std::size_t k) { return motion.compensated(sweep.source, k * sweep.stride); };
     const auto world_at = [&](std::size_t k) -> Eigen::Vector3d { return R * point_at(k).template cast<double>() + t; };

@@ -14,9 +14,10 @@ namespace {
 /// Weights residuals and adds them to normal equations, all at one state.
 class Equations {
  public:
-  Equations(const TimedCloud& source, const SE3& T_odom_lidar, double sigma_th_m, const AdaptiveIcpConfig& config)
+  Equations(const TimedCloud& source, const MotionState& state, double sigma_th_m, const AdaptiveIcpConfig& config)
       : source_(source),
-        origin_(T_odom_lidar.translation()),
+        state_(state),
+        origin_(state.T_odom_lidar.translation()),
         refine_(source.timed() && config.refine_motion),
         adaptive_(config.adaptive),
         sigma2_(sigma_th_m * sigma_th_m),
@@ -31,7 +32,7 @@ class Equations {
       Vector6d J;  // [(p × n)ᵀ nᵀ]
       J << (world - origin_).cross(normal), normal;
       if (refine_) {
-        sums.add(J, distance_m, beta, static_cast<double>(source_.offsets_s[i]));
+        sums.add(J, distance_m, beta, lever_s(i));
       } else {
         sums.add(J, distance_m, beta);
       }
@@ -49,8 +50,7 @@ class Equations {
     }
     const Eigen::Matrix3d weighted = scatter.axes * beta.asDiagonal();
     sums.add(world - origin_, weighted * scatter.axes.transpose(), weighted * e, beta.sum(), beta.dot(e.cwiseAbs2()),
-             static_cast<std::size_t>((beta.array() > 0.0).count()),
-             refine_ ? static_cast<double>(source_.offsets_s[i]) : 0.0);
+             static_cast<std::size_t>((beta.array() > 0.0).count()), refine_ ? lever_s(i) : 0.0);
   }
 
   NormalEquations sums;
@@ -62,7 +62,10 @@ class Equations {
     return e2 > gate2_ ? 0.0 : share * (adaptive_ ? sigma2_ / (sigma2_ + e2) : 1.0);
   }
 
+  double lever_s(std::size_t i) const { return state_.velocity_lever_s(static_cast<double>(source_.offsets_s[i])); }
+
   const TimedCloud& source_;
+  const MotionState& state_;
   Eigen::Vector3d origin_;
   bool refine_;
   bool adaptive_;
@@ -105,7 +108,7 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
                                         double sigma_th_m, const AdaptiveIcpConfig& config, std::size_t stride) {
   const Eigen::Matrix3d R = state.T_odom_lidar.linear();
   const Eigen::Vector3d t = state.T_odom_lidar.translation();
-  const SweepMotion motion = SweepMotion::during(source, state.twist);
+  const SweepMotion motion = SweepMotion::during(source, state.motion());
   matches_.resize(source.size());
   const std::size_t count = (source.size() + stride - 1) / stride;
   std::vector<NormalEquations> partial(chunk_count(count));
@@ -116,7 +119,7 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
       world[k - first] = R * motion.compensated(source, k * stride).cast<double>() + t;
     }
     look_up(map, first, {world.data(), last - first}, stride);
-    Equations equations(source, state.T_odom_lidar, sigma_th_m, config);
+    Equations equations(source, state, sigma_th_m, config);
     for (std::size_t k = first; k < last; ++k) {
       const std::size_t i = k * stride;
       const Match& match = matches_[i];

@@ -95,7 +95,7 @@ std::vector<Eigen::Vector3f> points_at(const Sweep& sweep, const SweepPose& pose
     cloud.offsets_s[i] -= middle;
   }
   std::vector<Eigen::Vector3f> points;
-  deskew(cloud, pose.twist, points);
+  deskew(cloud, {pose.twist}, points);
   return points;
 }
 

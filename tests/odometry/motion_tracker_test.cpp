@@ -40,6 +40,22 @@ TEST(MotionTracker, LostPosesDoNotEnterThePrediction) {
   EXPECT_NEAR(x_of(tracker.predicted(0.3)), 4.0, 1e-9);
 }
 
+TEST(MotionTracker, ASweepAcceleratesFromTheOneBefore) {
+  MotionTracker tracker({}, {}, {});
+  tracker.begin({});
+  tracker.advance(kStepNs);
+  EXPECT_EQ(tracker.predicted(0.3).earlier.lag_s, 0.0) << "the first velocity of a map is a guess";
+  tracker.accept(at(1.0), MotionVerdict::kPossible, false);
+  tracker.advance(2 * kStepNs);
+  MotionState state = tracker.predicted(0.3);
+  EXPECT_EQ(state.motion().acceleration, Vector6d(Vector6d::Zero())) << "as predicted";
+  state.twist[3] += 3.0;
+  EXPECT_NEAR(state.motion().acceleration[3], 15.0, 1e-9);
+  tracker.lose(state, std::nullopt);
+  tracker.advance(kStepNs);
+  EXPECT_EQ(tracker.predicted(0.3).earlier.lag_s, 0.0) << "lost";
+}
+
 TEST(MotionTracker, AJumpIsTakenWhenTwoSweepsAgreeAndGivesNoVelocity) {
   MotionTracker tracker = driving();
   tracker.advance(kStepNs);

@@ -13,10 +13,10 @@ IcpResult with_information(double sweep, double prior) {
   return icp;
 }
 
-TEST(PoseCovarianceByHand, TheSweepCountsEighteenTimesExceptWhereADirectionIsHidden) {
+TEST(PoseCovarianceByHand, TheSweepCountsTwentyTimesExceptWhereADirectionIsHidden) {
   const IcpResult icp = with_information(100.0, 50.0);
   PoseCovariance covariance;
-  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.0, Vector6d::Zero())(3, 3), 1.0 / 1850.0, 1e-12);
+  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.0, Vector6d::Zero())(3, 3), 1.0 / 2050.0, 1e-12);
   EXPECT_NEAR(covariance.of(icp, true, Vector6d::Zero(), 0.0, Vector6d::Zero())(3, 3), 1.0 / 150.0, 1e-12);
 }
 
@@ -27,6 +27,17 @@ TEST(PoseCovarianceByHand, AChangeOfVelocityDuringTheSweepCounts) {
   // A fifth of (3 m/s)² is learnt at once; 0.1 s / 24 of that velocity is the mean lag.
   const double expected = 0.2 * 9.0 * 0.01 / (24.0 * 24.0);
   EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.1, Vector6d::Zero())(3, 3), expected, 1e-9);
+}
+
+TEST(PoseCovarianceByHand, OfAChangeThatPointsAreCompensatedForHalfItsOwnChangeCounts) {
+  IcpResult icp = with_information(1e12, 0.0);
+  icp.state.twist[3] = 3.0;
+  icp.state.earlier.lag_s = 0.1;
+  PoseCovariance covariance;
+  const double expected = 0.2 * 1.5 * 1.5 * 0.01 / (24.0 * 24.0);
+  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.1, Vector6d::Zero())(3, 3), expected, 1e-9);
+  // As much again: a steady acceleration, and what was learnt fades.
+  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.1, Vector6d::Zero())(3, 3), 0.8 * expected, 1e-9);
 }
 
 TEST(PoseCovarianceByHand, WhatARegistrationCutShortHadLeftToMoveCounts) {

@@ -15,10 +15,18 @@ using test::twist;
 constexpr double kStep = 1e-6;
 constexpr double kSigmaM = 0.2;
 
+SE3 in_sweep(const TimedCloud& cloud, std::size_t i, const MotionState& state) {
+  if (!cloud.timed()) {
+    return SE3::Identity();
+  }
+  const auto s = static_cast<double>(cloud.offsets_s[i]);
+  const BodyMotion motion = state.motion();
+  return se3_exp(s * motion.twist + 0.5 * s * s * motion.acceleration);
+}
+
 /// Point-to-plane residual of a point with the plane held, evaluated in double precision without tables.
 double residual(const TimedCloud& cloud, std::size_t i, const MapPlane& plane, const MotionState& state) {
-  const SE3 in_sweep = cloud.timed() ? se3_exp(state.twist * static_cast<double>(cloud.offsets_s[i])) : SE3::Identity();
-  const Eigen::Vector3d world = state.T_odom_lidar * (in_sweep * cloud.points[i].cast<double>());
+  const Eigen::Vector3d world = state.T_odom_lidar * (in_sweep(cloud, i, state) * cloud.points[i].cast<double>());
   return plane.normal.dot(world - plane.point);
 }
 
@@ -33,10 +41,8 @@ Sums numeric_sums(const TimedCloud& cloud, const LocalMap& map, const MotionStat
                   bool adaptive) {
   Sums sums;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const SE3 in_sweep =
-        cloud.timed() ? se3_exp(state.twist * static_cast<double>(cloud.offsets_s[i])) : SE3::Identity();
     MapPlane plane;
-    if (!map.find(state.T_odom_lidar * (in_sweep * cloud.points[i].cast<double>()), plane)) {
+    if (!map.find(state.T_odom_lidar * (in_sweep(cloud, i, state) * cloud.points[i].cast<double>()), plane)) {
       continue;
     }
     const double e = residual(cloud, i, plane, state);
@@ -98,6 +104,20 @@ TEST(PointToPlaneJacobian, PoseIsExactAndVelocityOfFirstOrderInMotion) {
   EXPECT_LT((sums.gradient().head<6>() - numeric.b.head<6>()).norm(), 1e-3 * numeric.b.head<6>().norm());
   const Matrix6d velocity_block = numeric.H.bottomRightCorner<6, 6>();
   EXPECT_LT((velocity_hessian(sums) - velocity_block).norm(), 0.05 * velocity_block.norm());
+}
+
+TEST(PointToPlaneJacobian, TheAccelerationChangesWithTheVelocity) {
+  Scene scene(Vector6d::Zero());
+  scene.state.earlier = {twist(0.05, 0.02, -0.1, 0.3, 0.1, -0.2), 0.1};
+  const AdaptiveIcpConfig config;
+  const NormalEquations sums = linearise(scene.cloud, scene.map, scene.state, kSigmaM, config);
+  const Sums numeric = numeric_sums(scene.cloud, scene.map, scene.state, config.gate * kSigmaM, true);
+  ASSERT_GT(numeric.count, 200U);
+  EXPECT_EQ(sums.count, numeric.count);
+  EXPECT_LT((sums.hessian() - numeric.H).norm(), 1e-3 * numeric.H.norm());
+  const Matrix6d velocity_block = numeric.H.bottomRightCorner<6, 6>();
+  EXPECT_LT((velocity_hessian(sums) - velocity_block).norm(), 1e-2 * velocity_block.norm());
+  EXPECT_LT((sums.gradient().tail<6>() - numeric.b.tail<6>()).norm(), 1e-2 * numeric.b.tail<6>().norm());
 }
 
 TEST(PointToPlaneJacobian, PointsKeepTheirPlanesUntilTheyLeaveTheirVoxels) {

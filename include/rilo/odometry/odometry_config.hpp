@@ -19,7 +19,7 @@ struct MotionPriorConfig {
   bool enabled = true;                       ///< false: the sweep alone decides, as in the paper
   double acceleration_m_s2 = 10.0;           ///< standard deviation of the change of velocity in 0.1 s, per second
   double angular_acceleration_rad_s2 = 2.0;  ///< the same of the turn rate
-  double unseen_share = 0.1;                 ///< factor on both after a degenerate sweep
+  double unseen_share = 0.33;                ///< factor on both after a degenerate sweep
 };
 
 /// Rule that chooses between prediction and coarse result (III-B).

@@ -8,6 +8,7 @@
 #
 #   test            all tests, optimised build
 #   lint            clang-format, clang-tidy, shellcheck, links, paths
+#   separate        each source of the libraries and the command compiled by itself, not as a unity build
 #   docs            the site of documents and reference; wrong names and links are errors
 #   sanitize        all tests under AddressSanitizer and UBSan
 #   sanitize-short  the same for the tests of the libraries, without long drives and without those that run the command
@@ -21,7 +22,7 @@
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-phases=(test lint docs sanitize threads fuzz coverage instructions package arm wheel)
+phases=(test lint separate docs sanitize threads fuzz coverage instructions package arm wheel)
 
 # Long drives under sanitizers take half an hour.
 long='Elevation.(AnErrorIsFound|ASensorWithoutError)|BeamCalibration.AWorseUnit|Covariance|SameAsCommand'
@@ -33,6 +34,7 @@ run_phase() {
   case "$1" in
     test) scripts/test.sh --all ;;
     lint) scripts/lint.sh ;;
+    separate) scripts/separate.sh ;;
     docs) scripts/docs.sh ;;
     sanitize) scripts/sanitize.sh ;;
     sanitize-short)
@@ -50,7 +52,7 @@ run_phase() {
 
 # The line of a log that says how it went.
 verdict() {
-  grep -hE 'tests passed, .* tests failed out of|^lint: clean|^lint.sh: failed|^Site: |nothing found$|^lines: |^committed: |^packages: |^wheel: ' \
+  grep -hE 'tests passed, .* tests failed out of|^lint: clean|^lint.sh: failed|^Site: |^separate: |nothing found$|^lines: |^committed: |^packages: |^wheel: ' \
     "$1" | tail -n 1 || true
 }
 

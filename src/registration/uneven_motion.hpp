@@ -1,4 +1,4 @@
-// Motion within a sweep that deviates from a constant velocity, from the residuals.
+// Motion within a sweep that deviates from the one its points are compensated for, from the residuals.
 #pragma once
 
 #include <cstddef>

@@ -92,7 +92,8 @@ roslib="$out/roslib"
 rm -rf "$roslib"
 mkdir -p "$roslib/rosbag_storage"
 plugin=()
-if ldd "$out/prefix/bin/rilo" | grep -q librosbag_storage; then
+# Not a pipe into `grep -q`: that ends early, and ldd, which then cannot write, would count as a failure.
+if [[ "$(ldd "$out/prefix/bin/rilo")" == *librosbag_storage* ]]; then
   "${CXX:-c++}" -std=c++17 -O2 -Wall -Wextra -Werror -shared -fPIC -Wl,-soname,libroslib.so.0d \
     -o "$roslib/libroslib.so.0d" python/src/roslib_in_wheel.cpp
   cp /usr/share/rosbag_storage/*.xml /usr/lib/*/ros/librosbag_default_encryption_plugins.so "$roslib/rosbag_storage"

@@ -71,10 +71,11 @@ class PrefetchSource final : public ScanSource {
     if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !queue_.empty() || finished_; });
-    // After an error that ended the reading, there is nothing more.
     if (queue_.empty()) {
-      ended_ = true;
-      return {std::nullopt, nullptr, current_index_, current_name_, info_};
+      ended_ = true;  // by an error, which the first call reports
+      if (!failure_) return {std::nullopt, nullptr, current_index_, current_name_, info_};
+      return {std::nullopt, std::exchange(failure_, nullptr), inner_->current_index(), inner_->current_name(),
+              inner_->info()};
     }
     Item item = std::move(queue_.front());
     queue_.pop_front();
@@ -84,14 +85,28 @@ class PrefetchSource final : public ScanSource {
     return item;
   }
 
+  // An IoError concerns one sweep, and the source continues after it; anything else ends the reading, memory that is
+  // exhausted included.
   void run() {
+    try {
+      read_all();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      failure_ = std::current_exception();
+      finished_ = true;
+    }
+    changed_.notify_all();
+  }
+
+  void read_all() {
     for (bool last = false; !last;) {
       {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return stopping_ || queue_.size() < depth_; });
         if (stopping_) return;
       }
-      Item item = read_one(last);
+      Item item = read_one();
+      last = !item.sweep && !item.error;
       {
         const std::lock_guard lock(mutex_);
         queue_.push_back(std::move(item));
@@ -101,17 +116,12 @@ class PrefetchSource final : public ScanSource {
     }
   }
 
-  // An IoError concerns one sweep, and the source continues after it; anything else ends the reading.
-  Item read_one(bool& last) {
+  Item read_one() {
     Item item;
     try {
       item.sweep = inner_->next();
-      last = !item.sweep;
     } catch (const IoError&) {
       item.error = std::current_exception();
-    } catch (...) {
-      item.error = std::current_exception();
-      last = true;
     }
     item.index = inner_->current_index();
     item.name = inner_->current_name();
@@ -131,7 +141,8 @@ class PrefetchSource final : public ScanSource {
   std::condition_variable changed_;
   std::deque<Item> queue_;
   bool stopping_ = false;
-  bool finished_ = false;  // the thread has queued its last item
+  bool finished_ = false;       // the thread has queued its last item
+  std::exception_ptr failure_;  // that ended the reading
   std::thread thread_;
 };
 

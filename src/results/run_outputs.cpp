@@ -29,18 +29,22 @@ RecordingNames names_of(const OutputRequest& flags, const SourceInfo& source) {
   return names;
 }
 
-void write_poses(const fs::path& folder, const RunRecord& run, const RecordingNames& names) {
+void write_poses(const fs::path& folder, const RunRecord& run) {
   const Trajectory trajectory = run.trajectory();
   write_kitti_poses(folder / "poses_lidar.txt", trajectory);
   write_tum(folder / "trajectory.tum", trajectory);
   write_euroc(folder / "trajectory.csv", trajectory);
-  write_mcap(folder / "trajectory.mcap", run.results, names);
-  if (can_write_bags()) write_bag(folder / "trajectory.bag", run.results, names);
   if (run.source.T_cam_lidar) {
     write_kitti_poses_camera(folder / "poses_camera.txt", trajectory, *run.source.T_cam_lidar);
   } else {
     fs::remove(folder / "poses_camera.txt");
   }
+}
+
+// After all else: these are written by libraries that have failures of their own.
+void write_recordings(const fs::path& folder, const RunRecord& run, const RecordingNames& names) {
+  write_mcap(folder / "trajectory.mcap", run.results, names);
+  if (can_write_bags()) write_bag(folder / "trajectory.bag", run.results, names);
 }
 
 void write_report(const OutputRequest& flags, const RunRecord& run, const RunMetrics& metrics) {
@@ -65,12 +69,13 @@ void remove_stale_maps(const OutputRequest& flags) {
 
 void write_folder(const OutputRequest& flags, const RunRecord& run, const RunMetrics& metrics) {
   const fs::path folder = flags.out;
-  write_poses(folder, run, names_of(flags, run.source));
+  write_poses(folder, run);
   write_atomically(folder / "config.yaml", dump_config(run.config));
   write_atomically(folder / "sweeps.csv", sweeps_csv(run.results, run.indices));
   write_atomically(folder / "metrics.json", json_text(to_json(metrics)));
   write_report(flags, run, metrics);
   remove_stale_maps(flags);
+  write_recordings(folder, run, names_of(flags, run.source));
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ TEST(Faults, AMemoryLimitIsSaidAndKeepsTheSweepsBefore) {
   GTEST_SKIP() << "sanitizers reserve more memory than any limit allows";
 #endif
   std::size_t exhausted = 0;
-  for (int mib = 40; mib <= 120; mib += 5) {
+  for (int mib = 40; mib <= 120; ++mib) {
     SCOPED_TRACE(mib);
     const TempDir folder;
     const auto out = folder / "out";

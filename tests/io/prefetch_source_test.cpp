@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <new>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -20,6 +21,7 @@ class CountingSource final : public ScanSource {
     std::size_t sweeps = 20;
     std::vector<std::size_t> io_errors;
     std::optional<std::size_t> other_error;
+    std::optional<std::size_t> no_memory_for_info = {};
   };
   CountingSource(Script script, std::atomic<std::size_t>& reads) : script_(std::move(script)), reads_(reads) {}
 
@@ -44,6 +46,7 @@ class CountingSource final : public ScanSource {
   std::size_t current_index() const override { return current_; }
   std::string current_name() const override { return "sweep " + std::to_string(current_); }
   SourceInfo info() const override {
+    if (cursor_ > 0 && script_.no_memory_for_info == current_) throw std::bad_alloc();
     SourceInfo info;
     info.bad_sweeps = current_;
     return info;
@@ -110,6 +113,13 @@ TEST(PrefetchSourceTest, OtherErrorsEndTheReading) {
   EXPECT_THROW(f.source.next(), std::logic_error);
   EXPECT_FALSE(f.source.next());
   EXPECT_EQ(f.reads, 2U);
+}
+
+TEST(PrefetchSourceTest, MemoryThatIsExhaustedBetweenSweepsIsAnErrorToo) {
+  Fixture f({20, {}, {}, 3});
+  for (std::int64_t i = 0; i < 3; ++i) EXPECT_TRUE(f.source.next());
+  EXPECT_THROW(f.source.next(), std::bad_alloc);
+  EXPECT_FALSE(f.source.next());
 }
 
 TEST(PrefetchSourceTest, SkipBeforeAndAfterTheStart) {

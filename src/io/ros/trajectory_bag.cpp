@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <nav_msgs/Odometry.h>
+#include <new>
 #include <rosbag/bag.h>
+#include <stdexcept>
 #include <string>
 #include <tf2_msgs/TFMessage.h>
 
@@ -108,6 +110,12 @@ void write_bag(const std::filesystem::path& file, std::span<const SweepResult> r
   } catch (const rosbag::BagException& error) {
     throw IoError({file, "", std::string("it cannot be written: ") + error.what(), "a file that can be written",
                    "Free some disk space or choose another output path"});
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    // ROS' library opens plug-ins of its own, and does not say when it was memory that they lacked.
+    throw std::runtime_error(file.string() + ": it cannot be written: " + error.what() +
+                             " (out of memory, or the plug-ins of librosbag-storage are not installed)");
   }
   target.commit();
 }

@@ -14,6 +14,7 @@ namespace {
 
 // A larger voxel needs points of several sweeps: the first one alone would fill it from one or two beams.
 constexpr double kMorePointsPerLevel = 1.5;
+constexpr std::size_t kLevelsUp = 2;  // to a wider plane: the points of the finer one are few of its points
 
 /// Whether `finer`, the next level, has points in the voxel of `coarse` that holds `p`. The centroid is not enough: it
 /// may lie in the free space between them.
@@ -104,6 +105,12 @@ bool LocalMap::find(const Eigen::Vector3d& p, MapPlane& plane) const {
   }
   plane = spot.grid->plane_at(spot);
   return true;
+}
+
+bool LocalMap::find_wider(const PlaneSpot& spot, PlaneSpot& wider) const {
+  const std::size_t level = static_cast<std::size_t>(spot.grid - grids_.data()) + kLevelsUp;
+  const VoxelIndex index{spot.index.x >> kLevelsUp, spot.index.y >> kLevelsUp, spot.index.z >> kLevelsUp};
+  return level < grids_.size() && grids_[level].look_up(index, wider) == PlaneGrid::Kind::kPlane;
 }
 
 // Level by level for all points, so that the memory for the next look-up of each is prefetched during the others.

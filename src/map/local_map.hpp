@@ -38,6 +38,9 @@ class LocalMap {
   /// Surface element at `p` (odometry frame): the finest level with a plane there. False when there is none.
   bool find(const Eigen::Vector3d& p, MapPlane& plane) const;
 
+  /// The plane of the voxel two levels up, four times as wide, around that of `spot`. False when there is none.
+  bool find_wider(const PlaneSpot& spot, PlaneSpot& wider) const;
+
   /// What a look-up of many points looks for.
   enum class Wanted { kPlanes, kPlanesAndScatter };
 

@@ -7,7 +7,6 @@
 namespace rilo {
 
 namespace {
-constexpr double kLeastVariance = 1e-12;   // m²: keeps ratios of variances finite
 constexpr double kLeastReliability = 0.3;  // of a normal: below it the points may as well lie on one cone
 
 /// det(C) C⁻¹ r of a covariance and a unit ray: along the normal of the plane from the regression of the range on the
@@ -121,14 +120,12 @@ PlaneGrid::Kind PlaneGrid::keep_surface(std::uint32_t id, const Eigen::Matrix3d&
 }
 
 void PlaneGrid::keep_extents(std::uint32_t id, const Eigen::Matrix3d& covariance, const SymmetricEigen3& eigen) {
-  // With the noise: it is what makes the normal uncertain.
+  // The thickness is that of the points, their noise included.
   const double smallest = std::max(eigen.vectors.col(0).dot(covariance * eigen.vectors.col(0)), 0.0);
   planes_[id].normal = eigen.vectors.col(0).cast<float>();
   planes_[id].thickness = static_cast<float>(std::sqrt(smallest));
-  // Three degrees of freedom went into the plane.
-  extents_[id] = {eigen.vectors.col(1).cast<float>(), static_cast<float>(std::max(eigen.values[1], kLeastVariance)),
-                  static_cast<float>(std::max(eigen.values[2], kLeastVariance)),
-                  static_cast<float>(smallest / std::max(static_cast<double>(pool_[id].count) - 3.0, 1.0))};
+  extents_[id] = {eigen.vectors.col(1).cast<float>(), static_cast<float>(std::max(eigen.values[1], 0.0)),
+                  static_cast<float>(std::max(eigen.values[2], 0.0))};
 }
 
 }  // namespace rilo

@@ -173,15 +173,6 @@ MapScatter PlaneGrid::scatter_at(const PlaneSpot& spot) const {
   return scatter;
 }
 
-Eigen::Matrix3d PlaneGrid::normal_covariance_at(const PlaneSpot& spot) const {
-  // Errors of the slopes of a regression plane.
-  const Extent& extent = extents_[spot.voxel];
-  const Eigen::Vector3d middle = extent.middle.cast<double>();
-  const Eigen::Vector3d large = planes_[spot.voxel].normal.cast<double>().cross(middle);
-  return static_cast<double>(extent.error_variance / extent.middle_variance) * middle * middle.transpose() +
-         static_cast<double>(extent.error_variance / extent.large_variance) * large * large.transpose();
-}
-
 bool PlaneGrid::occupied(const Eigen::Vector3d& p) const {
   return slots_[slot_of(voxel_key(voxel_of(p, inverse_)))].voxel != kNone;
 }

@@ -117,9 +117,6 @@ class PlaneGrid {
   }
   VoxelIndex index_of(const Eigen::Vector3d& p) const { return voxel_of(p, inverse_); }
 
-  /// Covariance of the normal there (rad²), from the scatter of the points about the plane.
-  Eigen::Matrix3d normal_covariance_at(const PlaneSpot& spot) const;
-
   /// Derivative of the centroid of the points there with respect to the elevation offset, m/rad: mean over its points.
   Eigen::Vector3f elevation_jacobian_at(const PlaneSpot& spot) const {
     const Voxel& voxel = pool_[spot.voxel];
@@ -169,7 +166,6 @@ class PlaneGrid {
     Eigen::Vector3f middle = Eigen::Vector3f::Zero();  // unit, in the plane: where the points extend less
     float middle_variance = 0.0F;                      // m², along it ...
     float large_variance = 0.0F;                       // ... and along the other direction in the plane
-    float error_variance = 0.0F;                       // m², of the fitted plane along its normal, per point
   };
   struct Slot {
     std::uint64_t key = 0;

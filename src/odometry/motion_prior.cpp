@@ -28,6 +28,13 @@ MotionState expected_motion(const MotionState& last, double dt_s) {
   return next;
 }
 
+Matrix6d acceleration_density(const MotionPriorConfig& config) {
+  Vector6d density;
+  density.head<3>().setConstant(config.angular_acceleration_rad_s2 * config.angular_acceleration_rad_s2 * kUnitTimeS);
+  density.tail<3>().setConstant(config.acceleration_m_s2 * config.acceleration_m_s2 * kUnitTimeS);
+  return density.asDiagonal();
+}
+
 MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s,
                          const MotionPriorConfig& config) {
   MotionPrior prior;
@@ -35,10 +42,7 @@ MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_
   if (!config.enabled) {
     return prior;
   }
-  Vector6d density;
-  density.head<3>().setConstant(config.angular_acceleration_rad_s2 * config.angular_acceleration_rad_s2 * kUnitTimeS);
-  density.tail<3>().setConstant(config.acceleration_m_s2 * config.acceleration_m_s2 * kUnitTimeS);
-  const Matrix6d Q = density.asDiagonal();
+  const Matrix6d Q = acceleration_density(config);
   const Matrix6d& V = velocity_covariance;
   const double lag_s = std::abs(dt_s);  // a random walk is one backwards, too
   const double dt2 = dt_s * dt_s;

@@ -9,6 +9,9 @@ namespace rilo {
 /// Covariance of an unknown velocity: a car on a motorway, a sensor turned by hand ([rad/s; m/s] squared).
 Matrix6d unknown_velocity_covariance();
 
+/// Power density Q of the acceleration, white noise ([rad/s²; m/s²] squared times s).
+Matrix6d acceleration_density(const MotionPriorConfig& config);
+
 /// Prior of pose and velocity `dt_s` after a pose taken as certain (odometry is relative) with the velocity covariance
 /// `velocity_covariance` [rad/s; m/s]; the velocity performs a random walk. `predicted` is the mean. It holds the
 /// directions that a sweep does not constrain, and it ties the velocity during the sweep to the displacement since the

@@ -44,11 +44,11 @@ Vector6d MotionTracker::implied_twist(const SE3& T_odom_lidar) const {
 }
 
 MotionPrior MotionTracker::prior(const std::optional<MotionState>& refuted) const {
-  MotionPriorConfig config = prior_config_;
+  MotionPriorConfig config = turn_noise_.expected();
   if (degenerate_) {
     // Where nothing is seen, each sweep makes the prior weaker, and at last the least noise or bias outweighs it.
-    config.acceleration_m_s2 *= prior_config_.unseen_share;
-    config.angular_acceleration_rad_s2 *= prior_config_.unseen_share;
+    config.acceleration_m_s2 *= config.unseen_share;
+    config.angular_acceleration_rad_s2 *= config.unseen_share;
   }
   const double dt_s = since_trusted_s();
   if (refuted) {
@@ -60,7 +60,7 @@ MotionPrior MotionTracker::prior(const std::optional<MotionState>& refuted) cons
 MotionPrior MotionTracker::prior_before(const IcpResult& present) const {
   const double dt_s = -since_trusted_s();
   const SE3 T_before = present.state.T_odom_lidar * se3_exp(dt_s * present.state.twist);
-  return motion_prior({T_before, present.state.twist}, velocity_covariance_of(present), dt_s, prior_config_);
+  return motion_prior({T_before, present.state.twist}, velocity_covariance_of(present), dt_s, turn_noise_.expected());
 }
 
 MotionVerdict MotionTracker::weigh(const SE3& T_odom_lidar) const {
@@ -95,6 +95,9 @@ Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdic
   const double dt_s = since_trusted_s();
   const Vector6d velocity_before = trusted_state_.twist;
   const SE3 motion = trusted_state_.T_odom_lidar.inverse() * icp.state.T_odom_lidar;
+  if (step_ && !lost_ && verdict == MotionVerdict::kPossible) {
+    turn_noise_.learn(expected_motion(trusted_state_, dt_s), velocity_covariance_, dt_s, icp);
+  }
   state_ = icp.state;
   state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
   trusted_state_ = state_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "odometry/turn_noise.hpp"
 #include "registration/adaptive_icp.hpp"
 #include "rilo/geometry/trajectory.hpp"
 #include "rilo/odometry/odometry_config.hpp"
@@ -23,7 +24,7 @@ class MotionTracker {
  public:
   MotionTracker(const MotionPredictionConfig& prediction, const MotionPriorConfig& prior,
                 const MotionBoundsConfig& bounds)
-      : prediction_config_(prediction), prior_config_(prior), bounds_(bounds) {}
+      : prediction_config_(prediction), prior_config_(prior), turn_noise_(prior), bounds_(bounds) {}
 
   /// The next sweep came so much later than the one before.
   void advance(std::int64_t step_ns) { now_ns_ += step_ns; }
@@ -70,6 +71,7 @@ class MotionTracker {
 
   MotionPredictionConfig prediction_config_;
   MotionPriorConfig prior_config_;
+  TurnNoise turn_noise_;
   MotionBoundsConfig bounds_;
   std::int64_t now_ns_ = 0;  // sum of the steps
   Trajectory past_;          // the last trusted poses, at most three, stamped with now_ns_

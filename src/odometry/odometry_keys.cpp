@@ -66,6 +66,9 @@ void add_prediction(KeyVisitor& keys, MotionPredictionConfig& prediction, Motion
   keys.section("prior", "Prior of the registration from the motion so far (white noise on acceleration)");
   keys.boolean({"enabled", "", "false: the sweep alone decides, as in the paper", "experiment: open field"},
                prior.enabled);
+  keys.boolean({"learn", "", "angular acceleration at least the configured one, else as the drive so far shows it",
+                "experiment: angular acceleration from the drive"},
+               prior.learn);
   keys.real({"acceleration_m_s2", "m/s²", "standard deviation of the change of velocity in 0.1 s, per second",
              "experiment: planes that know their noise"},
             prior.acceleration_m_s2, 0.01, 1000);
@@ -144,7 +147,7 @@ void add_icp(KeyVisitor& keys, AdaptiveIcpConfig& c) {
   keys.real({"independent_share", "", "share of the residuals that count as independent", "experiment: open field"},
             c.independent_share, 1e-6, 1);
   keys.real({"weak_direction", "", "relative eigenvalue at which half of a direction is left to the prior; 0: off",
-             "experiment: three tunnels"},
+             "experiment: wider planes"},
             c.weak_direction, 0, 1);
 }
 
@@ -207,7 +210,7 @@ void add_health(KeyVisitor& keys, HealthConfig& c) {
   keys.real({"few_inlier_ratio", "", "below this ratio of correspondences to source points they are few", kNotTuned},
             c.few_inlier_ratio, 0, 1);
   keys.real({"degenerate_ratio", "", "a direction with a smaller relative eigenvalue is not constrained",
-             "experiment: three tunnels"},
+             "experiment: wider planes"},
             c.degenerate_ratio, 0, 1);
 }
 

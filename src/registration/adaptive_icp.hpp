@@ -87,9 +87,10 @@ class PlaneMatches {
   /// From now on every point keeps its last correspondence, wherever it moves.
   void freeze() { frozen_ = true; }
 
-  /// What errors of the normals alone add to the Hessian of the pose, on average: directions in which the Hessian is
-  /// not larger are not observed, whatever its eigenvalues.
-  const Matrix6d& normal_noise() const { return normal_noise_; }
+  /// The part of the Hessian of the pose that wider planes do not confirm: Σ β (J Jᵀ − ½ (J J_wᵀ + J_w Jᵀ)), J with the
+  /// normal of a point's plane, J_w with that of a wider one around it. Their errors hardly go together, so that J J_wᵀ
+  /// is, on average, free of what errors of the normals add to J Jᵀ: along a tunnel they are all that it shows.
+  const Matrix6d& unconfirmed() const { return unconfirmed_; }
 
  private:
   struct Match {
@@ -99,20 +100,28 @@ class PlaneMatches {
     PlaneSpot spot;         // empty: no correspondence
     VoxelIndex voxel;       // the finest one, that of the point when it was looked up
     bool looked_up = false;
+    bool looked_wider = false;  // only where it was asked for
+    Eigen::Vector3f wider_normal = Eigen::Vector3f::Zero();
   };
   /// Finds the correspondences of those of the points `first`, `first` + 1, … of the strided cloud meet that have left
   /// their voxel.
   void look_up(const LocalMap& map, std::size_t first, std::span<const Eigen::Vector3d> world, std::size_t stride);
 
+  /// The normal of a wider plane around that of `match`, to the same side; its own when there is none.
+  static const Eigen::Vector3f& wider_normal(const LocalMap& map, Match& match);
+
   std::vector<Match> matches_;  // of all points
   bool frozen_ = false;
-  Matrix6d normal_noise_ = Matrix6d::Zero();
+  Matrix6d unconfirmed_ = Matrix6d::Zero();
 };
 
 /// Residuals and Jacobians of `source` against the planes of `map` at `state`, with the Cauchy weight of σ_th (eq.
 /// β_k), summed. The pose is perturbed as described at MotionPrior. Only every `stride`-th point is used.
 NormalEquations linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state, double sigma_th_m,
                           const AdaptiveIcpConfig& config, std::size_t stride = 1);
+
+/// Perturbation of `prior`'s mean at which `state` lies.
+Vector12d prior_error(const MotionPrior& prior, const MotionState& state);
 
 /// Moves `state` by the perturbation [rotation; translation; their rates].
 MotionState perturbed(const MotionState& state, const Vector12d& delta);

@@ -11,6 +11,14 @@ namespace rilo {
 
 namespace {
 
+/// Derivative of the distance of a point from a plane with respect to the pose: [(q × n)ᵀ nᵀ], `q` from the sensor to
+/// the point.
+Vector6d pose_jacobian(const Eigen::Vector3d& q, const Eigen::Vector3d& normal) {
+  Vector6d J;
+  J << q.cross(normal), normal;
+  return J;
+}
+
 /// Weights residuals and adds them to normal equations, all at one state.
 class Equations {
  public:
@@ -29,8 +37,7 @@ class Equations {
              double weight) {
     const double beta = weight * weight_of(distance_m, 1.0);
     if (beta > 0.0) {
-      Vector6d J;  // [(p × n)ᵀ nᵀ]
-      J << (world - origin_).cross(normal), normal;
+      const Vector6d J = pose_jacobian(world - origin_, normal);
       if (refine_) {
         sums.add(J, distance_m, beta, lever_s(i));
       } else {
@@ -104,6 +111,19 @@ void PlaneMatches::look_up(const LocalMap& map, std::size_t first, std::span<con
       });
 }
 
+const Eigen::Vector3f& PlaneMatches::wider_normal(const LocalMap& map, Match& match) {
+  if (!match.looked_wider) {
+    match.looked_wider = true;
+    PlaneSpot wider;
+    match.wider_normal = match.normal;
+    if (map.find_wider(match.spot, wider)) {
+      const Eigen::Vector3f normal = wider.grid->plane_at(wider).normal.cast<float>();
+      match.wider_normal = normal.dot(match.normal) < 0.0F ? Eigen::Vector3f(-normal) : normal;
+    }
+  }
+  return match.wider_normal;
+}
+
 NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state,
                                         double sigma_th_m, const AdaptiveIcpConfig& config, std::size_t stride) {
   const Eigen::Matrix3d R = state.T_odom_lidar.linear();
@@ -112,7 +132,7 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
   matches_.resize(source.size());
   const std::size_t count = (source.size() + stride - 1) / stride;
   std::vector<NormalEquations> partial(chunk_count(count));
-  std::vector<Matrix6d> noise(chunk_count(count), Matrix6d::Zero());
+  std::vector<Matrix6d> unconfirmed(chunk_count(count), Matrix6d::Zero());
   for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
     std::array<Eigen::Vector3d, kChunkSize> world;
     for (std::size_t k = first; k < last; ++k) {
@@ -131,19 +151,20 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
         const double distance_m = normal.dot(p) - match.distance_m;  // (p − q)·n
         const double beta = equations.add(i, p, normal, distance_m, static_cast<double>(match.weight));
         if (k % kSparseStride == 0 && beta > 0.0) {
-          noise[chunk] += jacobian_moment(p - t, beta * match.spot.grid->normal_covariance_at(match.spot));
+          const Vector6d J = pose_jacobian(p - t, normal);
+          const Vector6d error = J - pose_jacobian(p - t, wider_normal(map, matches_[i]).cast<double>());
+          unconfirmed[chunk] += 0.5 * beta * (J * error.transpose() + error * J.transpose());
         }
       }
     }
     partial[chunk] = equations.sums;
   });
-  Matrix6d noises = Matrix6d::Zero();
+  unconfirmed_.setZero();
   NormalEquations total;
   for (std::size_t chunk = 0; chunk < partial.size(); ++chunk) {
     total += partial[chunk];
-    noises += static_cast<double>(kSparseStride) * noise[chunk];
+    unconfirmed_ += static_cast<double>(kSparseStride) * unconfirmed[chunk];
   }
-  normal_noise_ = noises.selfadjointView<Eigen::Lower>();
   return total;
 }
 

@@ -185,6 +185,30 @@ TEST(LocalMapTest, TheFinestLevelWithAPlaneAnswers) {
   EXPECT_FALSE(map.find({-10.5, 5.5, 0.5}, plane));
 }
 
+TEST(LocalMapTest, AWiderPlaneIsTwoLevelsUp) {
+  LocalMap map(config_of(4));
+  PlaneSpot spot;
+  const auto locate = [&](std::size_t level) {
+    spot = {};
+    map.visit(
+        0, 1, [](std::size_t) { return Eigen::Vector3d(0.1, 0.1, 0.1); },
+        [&](std::size_t, const Eigen::Vector3d&, const PlaneSpot& found) { spot = found; }, level);
+    return spot.grid != nullptr;
+  };
+  map.insert(patch(0.125F, 0.125F, 0.125F, 0.24F, 50), SE3::Identity());
+  PlaneSpot wider;
+  ASSERT_TRUE(locate(0));
+  EXPECT_FALSE(map.find_wider(spot, wider)) << "the patch is too small for a plane of 1 m";
+  map.insert(patch(0.5F, 0.5F, 0.125F, 0.98F, 500), SE3::Identity());
+  ASSERT_TRUE(locate(0));
+  EXPECT_EQ(spot.grid->voxel_m(), 0.25);
+  ASSERT_TRUE(map.find_wider(spot, wider));
+  EXPECT_EQ(wider.grid->voxel_m(), 1.0);
+  EXPECT_NEAR(std::abs(wider.grid->plane_at(wider).normal.z()), 1.0, 1e-6);
+  ASSERT_TRUE(locate(2));
+  EXPECT_FALSE(map.find_wider(spot, wider)) << "four levels are all";
+}
+
 TEST(LocalMapTest, TheSceneRangeChoosesTheFinestLevel) {
   // Voxels 0.25, 0.5, 1 and 2 m at 24 voxels a scene range: 6, 12 and 24 m; the last level is never alone.
   struct Case {

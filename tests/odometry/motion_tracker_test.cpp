@@ -56,6 +56,29 @@ TEST(MotionTracker, ASweepAcceleratesFromTheOneBefore) {
   EXPECT_EQ(tracker.predicted(0.3).earlier.lag_s, 0.0) << "lost";
 }
 
+/// Swayed about x, 0.6 rad/s to and fro from sweep to sweep; its prior's information on the turn rate.
+double information_when_swayed(bool lost_between) {
+  MotionTracker tracker = driving();
+  for (int i = 0; i < 60; ++i) {
+    tracker.advance(kStepNs);
+    if (lost_between) {
+      tracker.lose(tracker.state(), std::nullopt);
+      tracker.advance(kStepNs);
+    }
+    IcpResult icp = at(2.0);
+    icp.state.twist << (i % 2 == 0 ? 0.3 : -0.3), 0.0, 0.0, 0.0, 0.0, 0.0;
+    icp.posterior_information *= 1e12;
+    icp.sweep_information = icp.posterior_information;
+    tracker.accept(icp, MotionVerdict::kPossible, false);
+  }
+  tracker.advance(kStepNs);
+  return tracker.prior(MotionState{}).information(6, 6);
+}
+
+TEST(MotionTracker, LearnsHowItIsTurnedFromSweepsInARow) {
+  EXPECT_LT(information_when_swayed(false), information_when_swayed(true));
+}
+
 TEST(MotionTracker, AJumpIsTakenWhenTwoSweepsAgreeAndGivesNoVelocity) {
   MotionTracker tracker = driving();
   tracker.advance(kStepNs);

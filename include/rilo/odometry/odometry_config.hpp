@@ -17,9 +17,10 @@ struct MotionPredictionConfig {
 /// Prior of the registration from the motion so far (white noise on acceleration).
 struct MotionPriorConfig {
   bool enabled = true;                       ///< false: the sweep alone decides, as in the paper
+  bool learn = true;                         ///< a larger angular acceleration is learnt from the drive
   double acceleration_m_s2 = 10.0;           ///< standard deviation of the change of velocity in 0.1 s, per second
-  double angular_acceleration_rad_s2 = 2.0;  ///< the same of the turn rate
-  double unseen_share = 0.33;                ///< factor on both after a degenerate sweep
+  double angular_acceleration_rad_s2 = 2.0;  ///< the same of the turn rate, the least
+  double unseen_share = 0.2;                 ///< factor on both after a degenerate sweep
 };
 
 /// Rule that chooses between prediction and coarse result (III-B).
@@ -57,7 +58,7 @@ struct HealthConfig {
   double lost_share = 0.65;         ///< lost when the map score falls below this share of the usual one
   double least_score = 0.15;        ///< lost below it, whatever the usual score: that of wrong poses is as low
   double few_inlier_ratio = 0.1;    ///< below this ratio of correspondences to source points they are few
-  double degenerate_ratio = 0.006;  ///< a relative eigenvalue below it means a direction is not constrained
+  double degenerate_ratio = 0.003;  ///< a relative eigenvalue below it means a direction is not constrained
   int restart_after = 10;           ///< sweeps lost in a row after which a new map starts at the predicted pose
 };
 

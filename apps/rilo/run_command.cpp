@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -102,22 +103,24 @@ std::unique_ptr<LiveView> open_view(const RunFlags& flags, const ScanSource& sou
                                     flags.no_truth ? std::nullopt : std::optional(TruthTrack(flags.data)));
 }
 
-void observe_and_run(const RunFlags& flags, Session& session, PartialPoses& partial, LiveView* view, RunRecord& run) {
+/// The session ends here: what it holds, its map above all, makes room for the writing of the results.
+void observe_and_run(const RunFlags& flags, std::unique_ptr<Session> session, PartialPoses& partial, LiveView* view,
+                     RunRecord& run) {
   SweepCheck check(flags);
-  ProgressLine progress(flags, session.source());
+  ProgressLine progress(flags, session->source());
   MapObserver map(flags.map_voxel_m);
   MapPicture picture;
   std::optional<ViewFeed> feed;
   Pace pace;
   const bool picture_wanted = flags.map.empty() && !flags.out.empty() && !flags.no_report;
-  session.add(check);
-  if (flags.real_time) session.add(pace);
-  session.add(partial);
-  if (!flags.map.empty()) session.add(map);  // for the file; the report draws it, too
-  if (picture_wanted) session.add(picture);
-  session.add(progress);
-  if (view != nullptr) session.add(feed.emplace(*view));
-  take(session.run(), run);
+  session->add(check);
+  if (flags.real_time) session->add(pace);
+  session->add(partial);
+  if (!flags.map.empty()) session->add(map);  // for the file; the report draws it, too
+  if (picture_wanted) session->add(picture);
+  session->add(progress);
+  if (view != nullptr) session->add(feed.emplace(*view));
+  take(session->run(), run);
   if (!flags.map.empty()) run.map = map.cloud(flags.map_normals);
   if (picture_wanted) run.map.points = picture.points();
 }
@@ -148,14 +151,14 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   run.command_line = command_line;
   run.data = flags.data;
   run.config = configuration(flags);
-  Session session(source_of(flags), session_options(flags, run.config));
+  auto session = std::make_unique<Session>(source_of(flags), session_options(flags, run.config));
   prepare_outputs(flags);
   if (flags.out.empty() && !flags.quiet) std::cerr << "rilo: note: results are not kept; --out FOLDER keeps them\n";
   const FolderLock lock(flags.out);
   const InterruptGuard guard;
-  const auto view = open_view(flags, session.source(), run.config);
+  const auto view = open_view(flags, session->source(), run.config);
   PartialPoses partial(flags.out);
-  observe_and_run(flags, session, partial, view.get(), run);
+  observe_and_run(flags, std::move(session), partial, view.get(), run);
   if (run.results.empty() && run.signal == 0) {
     partial.remove();
     throw RunError(kind_of(run.error_code), run.error);

@@ -184,9 +184,9 @@ PlaneGrid::Slot& PlaneGrid::find_or_add(std::uint64_t key) {
   }
   std::uint32_t id = static_cast<std::uint32_t>(pool_.size());
   if (free_.empty()) {
-    pool_.emplace_back();
-    planes_.emplace_back();
-    extents_.emplace_back();
+    pool_.grow();
+    planes_.grow();
+    extents_.grow();
   } else {
     id = free_.back();
     free_.pop_back();
@@ -240,7 +240,8 @@ void PlaneGrid::evict(const Eigen::Vector3d& centre, double radius_m) {
 }
 
 void PlaneGrid::centroids(std::vector<Eigen::Vector3f>& out) const {
-  for (const Voxel& voxel : pool_) {
+  for (std::size_t id = 0; id < pool_.size(); ++id) {
+    const Voxel& voxel = pool_[id];
     if (voxel.count > 0) {
       out.push_back((centre_of(voxel) + voxel.sum.cast<double>() / voxel.count).cast<float>());
     }

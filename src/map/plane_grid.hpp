@@ -9,6 +9,7 @@
 #include "geometry/pose_derivative.hpp"
 #include "geometry/symmetric_eigen.hpp"
 #include "geometry/voxel_key.hpp"
+#include "map/chunked_pool.hpp"
 
 namespace rilo {
 
@@ -201,9 +202,9 @@ class PlaneGrid {
   PlaneCriteria criteria_;
   VoxelIndex place_;  // of the last eviction: keys mean the voxels around it
   std::vector<Slot> slots_;
-  std::vector<Voxel> pool_;
-  std::vector<Plane> planes_;    // of the voxels of pool_
-  std::vector<Extent> extents_;  // of the same
+  ChunkedPool<Voxel> pool_;
+  ChunkedPool<Plane> planes_;    // of the voxels of pool_
+  ChunkedPool<Extent> extents_;  // of the same
   std::vector<std::uint32_t> free_;
   std::vector<std::uint32_t> touched_;
   std::size_t used_ = 0;

@@ -70,7 +70,7 @@ struct SourceOptions {
   double elevation_correction_deg = 0;  ///< added to every point's elevation angle; KITTI's HDL-64E needs 0.205
   double assumed_rate_hz = 10;          ///< for data without stamps
   OnBadSweep on_bad_sweep = OnBadSweep::kFail;
-  std::size_t read_ahead = 4;  ///< sweeps read ahead on a background thread; 0: none
+  std::size_t read_ahead = 2;  ///< sweeps read ahead on a background thread; 0: none
 };
 
 }  // namespace rilo

@@ -66,7 +66,8 @@ void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_o
       const Eigen::Vector3d place = T_odom_lidar * points[i].cast<double>();
       inserted_[i] = {place, R * points[i],
                       R * elevation_jacobian(points[i]) + pose_by_elevation.at(place).cast<float>()};
-      voxels_[i] = finest_voxel(place);
+      const VoxelIndex voxel = finest_voxel(place);
+      voxels_[i] = i == first ? InsertedVoxel(voxel) : InsertedVoxel(voxel, voxels_[i - 1].index);
     }
   });
   // The levels are independent of one another.
@@ -78,9 +79,7 @@ void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_o
 }
 
 void LocalMap::shift_elevation(double angle_rad, const PoseDerivative& sensor) {
-  for (PlaneGrid& grid : grids_) {
-    grid.shift_elevation(angle_rad, sensor);
-  }
+  for_each_index(grids_.size(), [&](std::size_t i) { grids_[i].shift_elevation(angle_rad, sensor); });
 }
 
 void LocalMap::evict(const Eigen::Vector3d& centre) {

@@ -90,7 +90,7 @@ class LocalMap {
   std::vector<PlaneGrid> grids_;  // finest first
   std::size_t finest_ = 0;
   std::vector<InsertedPoint> inserted_;  // the points being inserted ...
-  std::vector<VoxelIndex> voxels_;       // ... and their voxels at the finest level in use
+  std::vector<InsertedVoxel> voxels_;    // ... and their voxels at the finest level in use
 };
 
 }  // namespace rilo

@@ -18,75 +18,91 @@ Eigen::Vector3d PlaneGrid::centre_of(const Voxel& voxel) const { return centre_o
 
 void PlaneGrid::insert(const InsertedPoint& point) {
   const VoxelIndex index = index_of(point.place);
-  add(find_or_add(voxel_key(index)).voxel, index, point);
+  add({index, find_or_add(voxel_key(index)).voxel, {&point, 1}});
 }
 
 void PlaneGrid::insert(const std::vector<InsertedPoint>& points) {
-  std::vector<VoxelIndex> voxels;
+  std::vector<InsertedVoxel> voxels;
   voxels.reserve(points.size());
   for (const InsertedPoint& point : points) {
-    voxels.push_back(index_of(point.place));
+    voxels.emplace_back(index_of(point.place));
   }
   insert(points, voxels, 0);
 }
 
-void PlaneGrid::insert(const std::vector<InsertedPoint>& points, const std::vector<VoxelIndex>& voxels, int doublings) {
-  std::array<VoxelIndex, kLookUpsInFlight> indices{};
-  std::array<std::uint32_t, kLookUpsInFlight> ids{};
-  for (std::size_t first = 0; first < points.size(); first += kLookUpsInFlight) {
-    const std::size_t n = std::min(kLookUpsInFlight, points.size() - first);
-    for (std::size_t i = 0; i < n; ++i) {
-      const VoxelIndex& fine = voxels[first + i];
-      indices[i] = {fine.x >> doublings, fine.y >> doublings, fine.z >> doublings};
-      prefetch(indices[i]);
+void PlaneGrid::insert(const std::vector<InsertedPoint>& points, const std::vector<InsertedVoxel>& voxels,
+                       int doublings) {
+  std::array<Run, kLookUpsInFlight> runs{};
+  for (std::size_t next = 0; next < points.size();) {
+    std::size_t count = 0;
+    for (; count < runs.size() && next < points.size(); ++count) {
+      Run& run = runs[count];
+      const VoxelIndex& fine = voxels[next].index;
+      run.index = {fine.x >> doublings, fine.y >> doublings, fine.z >> doublings};
+      prefetch(run.index);
+      const std::size_t first = next++;
+      while (next < points.size() && voxels[next].doublings_apart <= doublings) {
+        ++next;
+      }
+      run.points = {&points[first], next - first};
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      const Slot& slot = find_or_add(voxel_key(indices[i]));
-      ids[i] = slot.full ? kNone : slot.voxel;
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Slot& slot = find_or_add(voxel_key(runs[i].index));
       if (!slot.full) {
-        __builtin_prefetch(&pool_[slot.voxel]);
+        runs[i].voxel = slot.voxel;
+        prefetch_voxel(slot.voxel);
+        runs[open++] = runs[i];
       }
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (ids[i] != kNone) {
-        add(ids[i], indices[i], points[first + i]);
-      }
+    for (std::size_t i = 0; i < open; ++i) {
+      add(runs[i]);
     }
   }
 }
 
-void PlaneGrid::add(std::uint32_t id, const VoxelIndex& index, const InsertedPoint& point) {
-  Voxel& voxel = pool_[id];
-  if (voxel.count >= criteria_.max_points) {
-    if (voxel.fit != Fit::kNoPlane) {
-      slots_[slot_of(voxel.key)].full = voxel.fit == Fit::kPlane;
-      return;
+void PlaneGrid::add(const Run& run) {
+  Voxel& voxel = pool_[run.voxel];
+  const Eigen::Vector3d centre = centre_of(run.index);
+  for (const InsertedPoint& point : run.points) {
+    if (voxel.count >= criteria_.max_points) {
+      if (voxel.fit != Fit::kNoPlane) {
+        slots_[slot_of(voxel.key)].full = voxel.fit == Fit::kPlane;
+        return;
+      }
+      voxel.forget_half();
     }
-    const std::int32_t kept = voxel.count / 2;
-    const float share = static_cast<float>(kept) / static_cast<float>(voxel.count);
-    voxel.count = kept;
-    voxel.fitted_count = voxel.count;
-    voxel.sum *= share;
-    voxel.squares *= share;
-    voxel.elevation_jacobian_sum *= share;
-    voxel.ray_sum *= share;
+    voxel.add((point.place - centre).cast<float>(), point);
+    // Refit when the evidence has grown by half: a plane is fitted about log(n) times in its life, not n times.
+    if (voxel.count >= criteria_.min_points && 2 * voxel.count >= 3 * voxel.fitted_count) {
+      touched_.push_back(run.voxel);
+      voxel.fitted_count = voxel.count;
+    }
   }
-  const Eigen::Vector3f d = (point.place - centre_of(index)).cast<float>();
-  voxel.sum += d;
-  voxel.elevation_jacobian_sum += point.elevation_jacobian;
-  voxel.ray_sum += point.ray;
-  voxel.squares[0] += d.x() * d.x();
-  voxel.squares[1] += d.x() * d.y();
-  voxel.squares[2] += d.x() * d.z();
-  voxel.squares[3] += d.y() * d.y();
-  voxel.squares[4] += d.y() * d.z();
-  voxel.squares[5] += d.z() * d.z();
-  ++voxel.count;
-  // Refit when the evidence has grown by half: a plane is fitted about log(n) times in its life, not n times.
-  if (voxel.count >= criteria_.min_points && 2 * voxel.count >= 3 * voxel.fitted_count) {
-    touched_.push_back(id);
-    voxel.fitted_count = voxel.count;
-  }
+}
+
+void PlaneGrid::Voxel::forget_half() {
+  const std::int32_t kept = count / 2;
+  const float share = static_cast<float>(kept) / static_cast<float>(count);
+  count = kept;
+  fitted_count = kept;
+  sum *= share;
+  squares *= share;
+  elevation_jacobian_sum *= share;
+  ray_sum *= share;
+}
+
+void PlaneGrid::Voxel::add(const Eigen::Vector3f& d, const InsertedPoint& point) {
+  sum += d;
+  elevation_jacobian_sum += point.elevation_jacobian;
+  ray_sum += point.ray;
+  squares[0] += d.x() * d.x();
+  squares[1] += d.x() * d.y();
+  squares[2] += d.x() * d.z();
+  squares[3] += d.y() * d.y();
+  squares[4] += d.y() * d.z();
+  squares[5] += d.z() * d.z();
+  ++count;
 }
 
 void PlaneGrid::shift_elevation(double angle_rad, const PoseDerivative& sensor) {

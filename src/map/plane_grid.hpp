@@ -1,7 +1,10 @@
 // One level of the local map: voxels that keep the moments of their points and the plane through them.
 #pragma once
 
+#include <bit>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,6 +33,20 @@ struct InsertedPoint {
   Eigen::Vector3f ray = Eigen::Vector3f::Zero();  ///< from the sensor to the point, odometry frame (m)
   Eigen::Vector3f elevation_jacobian =
       Eigen::Vector3f::Zero();  ///< derivative with respect to the elevation offset (m/rad)
+};
+
+/// The voxel of a point in a grid, and how many doublings of the voxels the one of the point before lies away: with as
+/// many the two share theirs. Along a beam most points in a row do.
+struct InsertedVoxel {
+  InsertedVoxel() = default;
+  explicit InsertedVoxel(const VoxelIndex& voxel) : index(voxel) {}
+  InsertedVoxel(const VoxelIndex& voxel, const VoxelIndex& before)
+      : index(voxel),
+        doublings_apart(std::bit_width(
+            static_cast<std::uint32_t>((voxel.x ^ before.x) | (voxel.y ^ before.y) | (voxel.z ^ before.z)))) {}
+
+  VoxelIndex index;
+  int doublings_apart = std::numeric_limits<int>::max();
 };
 
 /// A surface element of the map, odometry frame.
@@ -83,7 +100,7 @@ class PlaneGrid {
   /// Adds points in their order.
   void insert(const std::vector<InsertedPoint>& points);
   /// The same for points whose voxels are known in a grid whose voxels double so many times to those of this one.
-  void insert(const std::vector<InsertedPoint>& points, const std::vector<VoxelIndex>& voxels, int doublings);
+  void insert(const std::vector<InsertedPoint>& points, const std::vector<InsertedVoxel>& voxels, int doublings);
 
   /// Moves all points as if the sensor's elevation angles had been larger by `angle_rad`, a small angle, relative to a
   /// sensor that moves with them by `sensor`.
@@ -154,6 +171,10 @@ class PlaneGrid {
     Eigen::Matrix<float, 6, 1> squares = Eigen::Matrix<float, 6, 1>::Zero();  // xx xy xz yy yz zz
     Eigen::Vector3f elevation_jacobian_sum = Eigen::Vector3f::Zero();         // of the points
     Eigen::Vector3f ray_sum = Eigen::Vector3f::Zero();                        // of their rays
+
+    /// Adds a point `d` from the voxel's centre.
+    void add(const Eigen::Vector3f& d, const InsertedPoint& point);
+    void forget_half();
   };
   /// What look-ups read, at the same place in a pool of its own: half a cache line.
   struct alignas(32) Plane {
@@ -188,8 +209,19 @@ class PlaneGrid {
     }
     return slot;
   }
+  /// Points in a row that share a voxel.
+  struct Run {
+    VoxelIndex index;
+    std::uint32_t voxel = kNone;
+    std::span<const InsertedPoint> points;
+  };
   Slot& find_or_add(std::uint64_t key);
-  void add(std::uint32_t id, const VoxelIndex& index, const InsertedPoint& point);
+  void prefetch_voxel(std::uint32_t voxel) const {
+    const auto* begin = reinterpret_cast<const char*>(&pool_[voxel]);
+    __builtin_prefetch(begin);
+    __builtin_prefetch(begin + sizeof(Voxel) - 1);  // no voxel lies in one cache line
+  }
+  void add(const Run& run);
   void erase(std::uint32_t voxel);
   void grow();
   void fit(std::uint32_t id);

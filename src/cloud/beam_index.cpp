@@ -26,6 +26,14 @@ Beam beam_of(float tangent) {
   return bin >= 0.0F && bin < static_cast<float>(kBeams) ? static_cast<Beam>(bin) : kNoBeam;
 }
 
+bool all_are(const PointBlock::Lanes<int>& lanes, int value) {
+  int differences = 0;
+  for (const int lane : lanes) {
+    differences |= lane ^ value;
+  }
+  return differences == 0;
+}
+
 }  // namespace
 
 /// Returns the sense in which the azimuth runs on from point to point, 1 or -1.
@@ -52,7 +60,24 @@ bool BeamIndex::find_revolutions(std::span<const Eigen::Vector3f> points, float 
   if (start == tangents_.end()) {
     return false;
   }
-  const auto begin = static_cast<std::size_t>(start - tangents_.begin());
+  find_borders(points, static_cast<std::size_t>(start - tangents_.begin()), direction);
+  if (revolutions_.size() < kFewestRevolutions) {
+    return false;
+  }
+  for_each_index(revolutions_.size(), [&](std::size_t t) {
+    Revolution& revolution = revolutions_[t];
+    for (std::size_t i = revolution.first; i < end_of(t); ++i) {
+      if (const auto tangent = static_cast<double>(tangents_[i]); std::isfinite(tangent)) {
+        ++revolution.count;
+        revolution.sum += tangent;
+        revolution.squares += tangent * tangent;
+      }
+    }
+  });
+  return revolutions_are_beams();
+}
+
+void BeamIndex::find_borders(std::span<const Eigen::Vector3f> points, std::size_t begin, float direction) {
   const Eigen::Vector2f p0(points[begin].x(), direction * points[begin].y());
   const Eigen::Vector2f seam(kSeamCosine * p0.x() + kSeamSine * p0.y(), kSeamCosine * p0.y() - kSeamSine * p0.x());
   // Quadrants gone through since the first point, counted with their sign: a few points that come back over a border
@@ -61,30 +86,26 @@ bool BeamIndex::find_revolutions(std::span<const Eigen::Vector3f> points, float 
   int travelled = 0;
   PointBlock p;
   alignas(64) PointBlock::Lanes<int> quadrants;
-  Revolution revolution{begin};
+  revolutions_.push_back({begin});
   for_each_block(begin, points.size(), [&](std::size_t first, std::size_t n) {
     p.load(&points[first], n);
     find_quadrants(p, seam, direction, quadrants);
+    if (n == PointBlock::kSize && all_are(quadrants, at)) {
+      return;
+    }
     for (std::size_t i = 0; i < n; ++i) {
-      const auto tangent = static_cast<double>(tangents_[first + i]);
-      if (!std::isfinite(tangent)) {
+      const int now = quadrants[i];
+      if (now == at || !std::isfinite(tangents_[first + i])) {
         continue;
       }
-      if (const int now = quadrants[i]; now != at) {
-        const int step = (now - at + kQuadrants) % kQuadrants;
-        at = now;
-        travelled += step == kQuadrants - 1 ? -1 : step;
-        if (travelled >= kQuadrants * static_cast<int>(revolutions_.size() + 1)) {
-          revolutions_.push_back(std::exchange(revolution, {first + i}));
-        }
+      const int step = (now - at + kQuadrants) % kQuadrants;
+      at = now;
+      travelled += step == kQuadrants - 1 ? -1 : step;
+      if (travelled >= kQuadrants * static_cast<int>(revolutions_.size())) {
+        revolutions_.push_back({first + i});
       }
-      ++revolution.count;
-      revolution.sum += tangent;
-      revolution.squares += tangent * tangent;
     }
   });
-  revolutions_.push_back(revolution);
-  return revolutions_.size() >= kFewestRevolutions && revolutions_are_beams();
 }
 
 bool BeamIndex::revolutions_are_beams() const {
@@ -108,16 +129,18 @@ void BeamIndex::assign(const SweepView& sweep, std::vector<Beam>& beams) {
     return;
   }
   if (!find_revolutions(sweep.points, find_tangents(sweep.points))) {
-    std::transform(tangents_.begin(), tangents_.end(), beams.begin(),
-                   [](float tangent) { return std::isfinite(tangent) ? beam_of(tangent) : kNoBeam; });
+    for_fixed_chunks(n, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        beams[i] = std::isfinite(tangents_[i]) ? beam_of(tangents_[i]) : kNoBeam;
+      }
+    });
     return;
   }
   for (std::size_t t = 0; t < revolutions_.size(); ++t) {
     const Revolution& revolution = revolutions_[t];
-    const std::size_t end = t + 1 < revolutions_.size() ? revolutions_[t + 1].first : n;
     const Beam beam = beam_of(static_cast<float>(revolution.sum / static_cast<double>(revolution.count)));
     std::fill(beams.begin() + static_cast<std::ptrdiff_t>(revolution.first),
-              beams.begin() + static_cast<std::ptrdiff_t>(end), beam);
+              beams.begin() + static_cast<std::ptrdiff_t>(end_of(t)), beam);
   }
 }
 

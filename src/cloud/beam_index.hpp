@@ -32,6 +32,10 @@ class BeamIndex {
   };
   float find_tangents(std::span<const Eigen::Vector3f> points);
   bool find_revolutions(std::span<const Eigen::Vector3f> points, float direction);
+  void find_borders(std::span<const Eigen::Vector3f> points, std::size_t begin, float direction);
+  std::size_t end_of(std::size_t t) const {
+    return t + 1 < revolutions_.size() ? revolutions_[t + 1].first : tangents_.size();
+  }
   bool revolutions_are_beams() const;
 
   std::vector<Revolution> revolutions_;

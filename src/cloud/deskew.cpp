@@ -1,6 +1,8 @@
 #include "cloud/deskew.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include "cloud/fixed_chunks.hpp"
 
@@ -8,7 +10,33 @@ namespace rilo {
 
 namespace {
 constexpr int kKnots = 129;  // see SweepMotion for the error that is left
+
+struct Span {
+  float begin_s;
+  float end_s;
+};
+
+/// Least and largest of the times; not empty. In lanes, which become vector instructions.
+Span span_of(const std::vector<float>& times_s) {
+  constexpr std::size_t kLanes = 16;
+  std::array<float, kLanes> least;
+  std::array<float, kLanes> most;
+  least.fill(times_s.front());
+  most.fill(times_s.front());
+  std::size_t i = 0;
+  for (; i + kLanes <= times_s.size(); i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      least[k] = times_s[i + k] < least[k] ? times_s[i + k] : least[k];
+      most[k] = times_s[i + k] > most[k] ? times_s[i + k] : most[k];
+    }
+  }
+  const auto rest = times_s.begin() + static_cast<std::ptrdiff_t>(i);
+  return {std::min(*std::min_element(least.begin(), least.end()),
+                   std::accumulate(rest, times_s.end(), least[0], [](float a, float b) { return std::min(a, b); })),
+          std::max(*std::max_element(most.begin(), most.end()),
+                   std::accumulate(rest, times_s.end(), most[0], [](float a, float b) { return std::max(a, b); }))};
 }
+}  // namespace
 
 SweepMotion::SweepMotion(const BodyMotion& motion, float begin_s, float end_s) : begin_s_(begin_s) {
   const float span = end_s - begin_s;
@@ -29,8 +57,8 @@ SweepMotion SweepMotion::during(const TimedCloud& cloud, const BodyMotion& motio
   if (!cloud.timed()) {
     return {motion, 0.0F, 0.0F};
   }
-  const auto [begin, end] = std::minmax_element(cloud.offsets_s.begin(), cloud.offsets_s.end());
-  return {motion, *begin, *end};
+  const Span span = span_of(cloud.offsets_s);
+  return {motion, span.begin_s, span.end_s};
 }
 
 void deskew(const TimedCloud& cloud, const BodyMotion& motion, std::vector<Eigen::Vector3f>& out) {

@@ -33,6 +33,15 @@ inline void find_voxel_indices(const Lanes<float>& from, double inverse_size, La
 }
 }  // namespace
 
+RILO_WIDE void PointBlock::load_all(const Eigen::Vector3f* points) {
+  const float* from = points->data();
+  for (std::size_t i = 0; i < kSize; ++i) {
+    x[i] = from[3 * i];
+    y[i] = from[3 * i + 1];
+    z[i] = from[3 * i + 2];
+  }
+}
+
 RILO_WIDE void find_in_range(const PointBlock& p, float min2, float max2, const Lanes<float>& times_s,
                              Lanes<int>& in_range) {
   for (std::size_t i = 0; i < kSize; ++i) {
@@ -40,6 +49,16 @@ RILO_WIDE void find_in_range(const PointBlock& p, float min2, float max2, const 
     const float range2 = p.x[i] * p.x[i] + (p.y[i] * p.y[i] + p.z[i] * p.z[i]);
     const bool timed = std::abs(times_s[i]) <= std::numeric_limits<float>::max();
     in_range[i] = static_cast<int>(range2 >= min2) & static_cast<int>(range2 <= max2) & static_cast<int>(timed);
+  }
+}
+
+RILO_WIDE void widen_spans(const Lanes<float>& times_s, const Lanes<int>& in_range, Lanes<float>& begins_s,
+                           Lanes<float>& ends_s) {
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const float begin_s = times_s[i] < begins_s[i] ? times_s[i] : begins_s[i];
+    const float end_s = times_s[i] > ends_s[i] ? times_s[i] : ends_s[i];
+    begins_s[i] = in_range[i] != 0 ? begin_s : begins_s[i];
+    ends_s[i] = in_range[i] != 0 ? end_s : ends_s[i];
   }
 }
 

@@ -29,8 +29,14 @@ struct PointBlock {
     z[i] = p.z();
   }
 
+  Eigen::Vector3f at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+
   /// The first n of `points`, at most kSize; zeros beyond them.
   void load(const Eigen::Vector3f* points, std::size_t n) {
+    if (n == kSize) {
+      load_all(points);
+      return;
+    }
     for (std::size_t i = 0; i < n; ++i) {
       set(i, points[i]);
     }
@@ -39,9 +45,12 @@ struct PointBlock {
     }
   }
 
+  /// kSize points.
+  void load_all(const Eigen::Vector3f* points);
+
   void store(Eigen::Vector3f* points, std::size_t n) const {
     for (std::size_t i = 0; i < n; ++i) {
-      points[i] = {x[i], y[i], z[i]};
+      points[i] = at(i);
     }
   }
 };
@@ -58,6 +67,10 @@ void for_each_block(std::size_t first, std::size_t last, const Use& use) {
 /// are not finite.
 void find_in_range(const PointBlock& p, float min2, float max2, const PointBlock::Lanes<float>& times_s,
                    PointBlock::Lanes<int>& in_range);
+
+/// Widens, lane by lane, the spans of the times of the points in range.
+void widen_spans(const PointBlock::Lanes<float>& times_s, const PointBlock::Lanes<int>& in_range,
+                 PointBlock::Lanes<float>& begins_s, PointBlock::Lanes<float>& ends_s);
 
 /// Tangent of the elevation angle.
 void find_tangents(const PointBlock& p, PointBlock::Lanes<float>& tangents);

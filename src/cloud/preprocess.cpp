@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <numeric>
 #include <utility>
 
 #include "cloud/elevation.hpp"
 #include "cloud/fixed_chunks.hpp"
-#include "cloud/point_block.hpp"
 
 namespace rilo {
 
@@ -15,6 +16,24 @@ namespace {
 constexpr std::size_t kBeamSample = 4000;  // points: enough for 128 beams at little cost
 constexpr std::size_t kPhaseStep = 7;      // prime: the samples of successive sweeps differ
 constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz
+
+/// Writes at(i) of each valid point to consecutive places; returns how many.
+template <typename At, typename T>
+std::size_t keep(std::span<const std::uint8_t> valid, const At& at, T* to) {
+  if (std::memchr(valid.data(), 0, valid.size()) == nullptr) {
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+      to[i] = at(i);
+    }
+    return valid.size();
+  }
+  T* const first = to;
+  for (std::size_t i = 0; i < valid.size(); ++i) {
+    if (valid[i] != 0) {
+      *to++ = at(i);
+    }
+  }
+  return static_cast<std::size_t>(to - first);
+}
 
 }  // namespace
 
@@ -125,24 +144,27 @@ std::size_t Preprocessor::find_valid(const SweepView& sweep, bool timed) {
     PointBlock p;
     alignas(64) PointBlock::Lanes<float> times{};
     alignas(64) PointBlock::Lanes<int> valid;
+    alignas(64) PointBlock::Lanes<float> begins;
+    alignas(64) PointBlock::Lanes<float> ends;
     Chunk& found = chunks_[chunk];
+    begins.fill(found.begin_s);
+    ends.fill(found.end_s);
     for_each_block(begin, end, [&](std::size_t first, std::size_t n) {
       p.load(&sweep.points[first], n);
       if (timed) {
         std::copy_n(sweep.times_s.begin() + static_cast<std::ptrdiff_t>(first), n, times.begin());
       }
       find_in_range(p, min2, max2, times, valid);
-      for (std::size_t i = 0; i < n; ++i) {
-        valid_[first + i] = static_cast<std::uint8_t>(valid[i]);
-        found.kept += static_cast<std::size_t>(valid[i]);
-      }
+      std::fill(valid.begin() + static_cast<std::ptrdiff_t>(n), valid.end(), 0);
+      found.kept += static_cast<std::size_t>(std::accumulate(valid.begin(), valid.end(), 0));
+      std::transform(valid.begin(), valid.begin() + static_cast<std::ptrdiff_t>(n), &valid_[first],
+                     [](int in_range) { return static_cast<std::uint8_t>(in_range); });
       if (timed) {
-        for (std::size_t i = 0; i < n; ++i) {
-          found.begin_s = valid[i] != 0 ? std::min(found.begin_s, times[i]) : found.begin_s;
-          found.end_s = valid[i] != 0 ? std::max(found.end_s, times[i]) : found.end_s;
-        }
+        widen_spans(times, valid, begins, ends);
       }
     });
+    found.begin_s = *std::min_element(begins.begin(), begins.end());
+    found.end_s = *std::max_element(ends.begin(), ends.end());
   });
   std::size_t total = 0;
   for (Chunk& chunk : chunks_) {
@@ -171,42 +193,40 @@ void Preprocessor::crop(const SweepView& sweep) {
     alignas(64) PointBlock::Lanes<float> elevation{};
     alignas(64) PointBlock::Lanes<float> azimuth{};
     std::size_t to = chunks_[chunk].to;
-    std::size_t n = 0;
-    const auto write = [&] {
+    for_each_block(first, last, [&](std::size_t begin, std::size_t n) {
+      const std::span valid(&valid_[begin], n);
+      p.load(&sweep.points[begin], n);
       if (rotated) {
         rotate_elevation(p, rotation);
       }
       if (beams_tracked_) {
+        const std::span beams(&beams_[begin], n);
+        find_angles(beams, elevation, azimuth);
         turn_beams(p, elevation, azimuth);
-      }
-      p.store(&cropped_.points[to], n);
-      to += std::exchange(n, 0);
-    };
-    for (std::size_t i = first; i < last; ++i) {
-      if (valid_[i] == 0) {
-        continue;
-      }
-      p.set(n, sweep.points[i]);
-      if (beams_tracked_) {
-        const Eigen::Vector2f angles = beam_angles_.of(beams_[i]);
-        elevation[n] = angles.x();
-        azimuth[n] = angles.y();
-        cropped_beams_[to + n] = beams_[i];
+        keep(
+            valid, [&](std::size_t i) { return beams[i]; }, cropped_beams_.data() + to);
       }
       if (timed) {
-        cropped_.offsets_s[to + n] = sweep.times_s[i] - mid_s;
+        keep(
+            valid, [&](std::size_t i) { return sweep.times_s[begin + i] - mid_s; }, cropped_.offsets_s.data() + to);
       }
       if (intense) {
-        cropped_.intensities[to + n] = sweep.intensities[i];
+        keep(
+            valid, [&](std::size_t i) { return sweep.intensities[begin + i]; }, cropped_.intensities.data() + to);
       }
-      if (++n == PointBlock::kSize) {
-        write();
-      }
-    }
-    if (n > 0) {
-      write();
-    }
+      to += keep(
+          valid, [&](std::size_t i) { return p.at(i); }, cropped_.points.data() + to);
+    });
   });
+}
+
+void Preprocessor::find_angles(std::span<const Beam> beams, PointBlock::Lanes<float>& elevation_rad,
+                               PointBlock::Lanes<float>& azimuth_rad) const {
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const Eigen::Vector2f angles = beam_angles_.of(beams[i]);
+    elevation_rad[i] = angles.x();
+    azimuth_rad[i] = angles.y();
+  }
 }
 
 /// Middle of the span of the times (s) over all sweeps so far.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "cloud/fixed_chunks.hpp"
@@ -17,20 +18,32 @@ constexpr std::uint64_t kSecondHalf = 1ULL << 63U;  // a bit that voxel_key leav
 std::uint64_t side_of(std::uint64_t key) { return key >> 41U & 1U; }
 }  // namespace
 
-void VoxelMean::find_keys(const TimedCloud& in, double voxel_m) {
+void VoxelMean::find_runs(const TimedCloud& in, double voxel_m) {
   const bool timed = in.timed();
   const double inverse = 1.0 / voxel_m;
-  keys_.resize(in.size());
-  for_fixed_chunks(in.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  runs_.keys.resize(in.size());
+  runs_.starts.resize(in.size());
+  runs_.counts.resize(chunk_count(in.size()));
+  for_fixed_chunks(in.size(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     PointBlock p;
     alignas(64) PointBlock::Lanes<std::uint64_t> keys;
+    std::uint64_t* const to = &runs_.keys[begin];
+    std::uint16_t* const starts = &runs_.starts[begin];
+    std::uint64_t before = 0;
+    std::size_t count = 0;
     for_each_block(begin, end, [&](std::size_t first, std::size_t n) {
       p.load(&in.points[first], n);
       find_voxel_keys(p, inverse, keys);
       for (std::size_t i = 0; i < n; ++i) {
-        keys_[first + i] = keys[i] | (timed && in.offsets_s[first + i] > 0.0F ? kSecondHalf : 0U);
+        const std::uint64_t key = keys[i] | (timed && in.offsets_s[first + i] > 0.0F ? kSecondHalf : 0U);
+        // Written in any case, counted if it begins a run: no branch.
+        to[count] = key;
+        starts[count] = static_cast<std::uint16_t>(first + i - begin);
+        count += static_cast<std::size_t>(key != before || count == 0);
+        before = key;
       }
     });
+    runs_.counts[chunk] = static_cast<std::uint16_t>(count);
   });
 }
 
@@ -76,48 +89,49 @@ void VoxelMean::Side::grow() {
 }
 
 template <typename CountOf>
-void VoxelMean::Side::add_up(const TimedCloud& in, const std::vector<std::uint64_t>& keys, std::uint64_t number,
-                             const CountOf& count_of) {
-  start();
+void VoxelMean::Side::add(const TimedCloud& in, std::uint64_t key, std::size_t begin, std::size_t end,
+                          const CountOf& count_of) {
   const bool timed = in.timed();
-  const bool intense = !in.intensities.empty();
-  const std::size_t size = in.size();
   const auto point_at = [&](std::size_t i) {
     const Eigen::Vector3f& p = in.points[i];
     return Eigen::Array4f(p.x(), p.y(), p.z(), timed ? in.offsets_s[i] : 0.0F);
   };
-  for (std::size_t i = 0; i < size;) {
-    const std::uint64_t key = keys[i];
-    if (side_of(key) != number) {
-      ++i;
-      continue;
+  const std::uint32_t place = number_of(key);
+  if (place == means_.size()) {
+    means_.push_back({point_at(begin), Eigen::Array4f::Zero(), 0.0F, 0.0F, static_cast<std::uint32_t>(begin)});
+  }
+  Mean& mean = means_[place];
+  const Eigen::Array4f first = mean.first;
+  Eigen::Array4f sum = mean.sum;
+  float total = mean.count;
+  for (std::size_t i = begin; i < end; ++i) {
+    const float count = count_of(i);
+    sum += count * (point_at(i) - first);
+    total += count;
+  }
+  mean.sum = sum;
+  mean.count = total;
+  if (!in.intensities.empty()) {
+    for (std::size_t i = begin; i < end; ++i) {
+      mean.intensity_sum += count_of(i) * in.intensities[i];
     }
-    const std::uint32_t place = number_of(key);
-    if (place == means_.size()) {
-      means_.push_back({point_at(i), Eigen::Array4f::Zero(), 0.0F, 0.0F, static_cast<std::uint32_t>(i)});
-    }
-    Mean& mean = means_[place];
-    const Eigen::Array4f first = mean.first;
-    Eigen::Array4f sum = mean.sum;
-    float total = mean.count;
-    // Along a beam many points in a row share a voxel.
-    const std::size_t begin = i;
-    for (; i < size && keys[i] == key; ++i) {
-      const float count = count_of(i);
-      sum += count * (point_at(i) - first);
-      total += count;
-    }
-    mean.sum = sum;
-    mean.count = total;
-    if (intense) {
-      for (std::size_t k = begin; k < i; ++k) {
-        mean.intensity_sum += count_of(k) * in.intensities[k];
+  }
+}
+
+template <typename CountOf>
+void VoxelMean::Side::add_up(const TimedCloud& in, const Runs& runs, std::uint64_t number, const CountOf& count_of) {
+  start();
+  for (std::size_t chunk = 0; chunk < runs.counts.size(); ++chunk) {
+    const std::size_t begin = chunk * kChunkSize;
+    const std::size_t end = std::min(in.size(), begin + kChunkSize);
+    const std::span keys(&runs.keys[begin], runs.counts[chunk]);
+    const std::uint16_t* const starts = &runs.starts[begin];
+    for (std::size_t r = 0; r < keys.size(); ++r) {
+      if (const std::size_t ahead = r + kLookUpsInFlight; ahead < keys.size() && side_of(keys[ahead]) == number) {
+        __builtin_prefetch(&slots_[mix_key(keys[ahead]) & (slots_.size() - 1)]);
       }
-    }
-    const std::size_t ahead = std::min(i + kLookUpsInFlight, size);
-    for (std::size_t k = begin + kLookUpsInFlight; k < ahead; ++k) {
-      if (keys[k] != keys[k - 1]) {
-        __builtin_prefetch(&slots_[mix_key(keys[k]) & (slots_.size() - 1)]);
+      if (side_of(keys[r]) == number) {
+        add(in, keys[r], begin + starts[r], r + 1 < keys.size() ? begin + starts[r + 1] : end, count_of);
       }
     }
   }
@@ -125,11 +139,11 @@ void VoxelMean::Side::add_up(const TimedCloud& in, const std::vector<std::uint64
 
 template <typename CountOf>
 void VoxelMean::add_up(const TimedCloud& in, const CountOf& count_of) {
-  for_each_index(sides_.size(), [&](std::size_t i) { sides_[i].add_up(in, keys_, i, count_of); });
+  for_each_index(sides_.size(), [&](std::size_t i) { sides_[i].add_up(in, runs_, i, count_of); });
 }
 
 void VoxelMean::average(const TimedCloud& in, double voxel_m, TimedCloud& out) {
-  find_keys(in, voxel_m);
+  find_runs(in, voxel_m);
   if (in.counts.empty()) {
     add_up(in, [](std::size_t) { return 1.0F; });
   } else {

@@ -30,15 +30,20 @@ class VoxelMean {
     float intensity_sum;
     std::uint32_t first_index;  // of the first point
   };
-  /// The voxels on the left or on the right of the sensor. The two are worked on in parallel; along a beam, most
-  /// successive points share one.
+  /// Points in a row that share a voxel, as most do along a beam. Those of a chunk of points begin at the place of its
+  /// first point.
+  struct Runs {
+    std::vector<std::uint64_t> keys;    // of the voxels
+    std::vector<std::uint16_t> starts;  // first point, counted from that of the chunk
+    std::vector<std::uint16_t> counts;  // runs of each chunk
+  };
+  /// The voxels on the left or on the right of the sensor. The two are worked on in parallel.
   class Side {
    public:
     /// Means of the points of `in` whose keys are of the side `number`; points are counted as often as `count_of`
     /// says.
     template <typename CountOf>
-    void add_up(const TimedCloud& in, const std::vector<std::uint64_t>& keys, std::uint64_t number,
-                const CountOf& count_of);
+    void add_up(const TimedCloud& in, const Runs& runs, std::uint64_t number, const CountOf& count_of);
     /// In the order of their first points.
     const std::vector<Mean>& means() const { return means_; }
 
@@ -49,6 +54,9 @@ class VoxelMean {
       std::uint32_t number = 0;      // of the voxel's mean
     };
     void start();
+    /// Adds the points begin … end − 1 to the mean of the voxel `key`.
+    template <typename CountOf>
+    void add(const TimedCloud& in, std::uint64_t key, std::size_t begin, std::size_t end, const CountOf& count_of);
     std::uint32_t number_of(std::uint64_t key);
     void grow();
 
@@ -56,12 +64,12 @@ class VoxelMean {
     std::uint32_t generation_ = 0;
     std::vector<Mean> means_;
   };
-  void find_keys(const TimedCloud& in, double voxel_m);
+  void find_runs(const TimedCloud& in, double voxel_m);
   template <typename CountOf>
   void add_up(const TimedCloud& in, const CountOf& count_of);
   void write(const TimedCloud& in, TimedCloud& out) const;
 
-  std::vector<std::uint64_t> keys_;  // of the points
+  Runs runs_;
   std::array<Side, 2> sides_;
 };
 

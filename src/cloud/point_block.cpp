@@ -101,6 +101,26 @@ RILO_WIDE void turn_beams(PointBlock& p, const Lanes<float>& elevation_rad, cons
   }
 }
 
+RILO_WIDE void rotate(const Eigen::Matrix3f& R, const PointBlock& p, PointBlock& rotated) {
+  const std::array<float, 9> r{R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)};
+  for (std::size_t i = 0; i < kSize; ++i) {
+    // Eigen's order of the sums.
+    rotated.x[i] = r[0] * p.x[i] + (r[1] * p.y[i] + r[2] * p.z[i]);
+    rotated.y[i] = r[3] * p.x[i] + (r[4] * p.y[i] + r[5] * p.z[i]);
+    rotated.z[i] = r[6] * p.x[i] + (r[7] * p.y[i] + r[8] * p.z[i]);
+  }
+}
+
+RILO_WIDE void find_elevation_jacobians(const PointBlock& p, PointBlock& jacobians) {
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const float horizontal = std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i]);
+    const float tangent = tangent_of(p.z[i], horizontal);
+    jacobians.x[i] = -tangent * p.x[i];
+    jacobians.y[i] = -tangent * p.y[i];
+    jacobians.z[i] = horizontal;
+  }
+}
+
 RILO_WIDE void rotate_elevation(PointBlock& p, const ElevationRotation& rotation) {
   const float cosine = rotation.cosine();
   const float sine = rotation.sine();

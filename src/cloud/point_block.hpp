@@ -87,6 +87,12 @@ void find_quadrants(const PointBlock& p, const Eigen::Vector2f& seam, float dire
 void turn_beams(PointBlock& p, const PointBlock::Lanes<float>& elevation_rad,
                 const PointBlock::Lanes<float>& azimuth_rad);
 
+/// R p of each point.
+void rotate(const Eigen::Matrix3f& R, const PointBlock& p, PointBlock& rotated);
+
+/// elevation_jacobian() of each point.
+void find_elevation_jacobians(const PointBlock& p, PointBlock& jacobians);
+
 /// `rotation` of each point.
 void rotate_elevation(PointBlock& p, const ElevationRotation& rotation);
 

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "cloud/elevation.hpp"
 #include "cloud/fixed_chunks.hpp"
+#include "cloud/point_block.hpp"
 
 namespace rilo {
 
@@ -16,6 +18,18 @@ namespace {
 constexpr std::size_t kBeamSample = 4000;  // points: enough for 128 beams at little cost
 constexpr std::size_t kPhaseStep = 7;      // prime: the samples of successive sweeps differ
 constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz
+
+void find_angles(const BeamAngles& of, std::span<const Beam> beams, PointBlock::Lanes<float>& elevation_rad,
+                 PointBlock::Lanes<float>& azimuth_rad) {
+  Eigen::Vector2f angles = of.of(beams.front());
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    if (i > 0 && beams[i] != beams[i - 1]) {
+      angles = of.of(beams[i]);
+    }
+    elevation_rad[i] = angles.x();
+    azimuth_rad[i] = angles.y();
+  }
+}
 
 /// Writes at(i) of each valid point to consecutive places; returns how many.
 template <typename At, typename T>
@@ -201,7 +215,7 @@ void Preprocessor::crop(const SweepView& sweep) {
       }
       if (beams_tracked_) {
         const std::span beams(&beams_[begin], n);
-        find_angles(beams, elevation, azimuth);
+        find_angles(beam_angles_, beams, elevation, azimuth);
         turn_beams(p, elevation, azimuth);
         keep(
             valid, [&](std::size_t i) { return beams[i]; }, cropped_beams_.data() + to);
@@ -218,15 +232,6 @@ void Preprocessor::crop(const SweepView& sweep) {
           valid, [&](std::size_t i) { return p.at(i); }, cropped_.points.data() + to);
     });
   });
-}
-
-void Preprocessor::find_angles(std::span<const Beam> beams, PointBlock::Lanes<float>& elevation_rad,
-                               PointBlock::Lanes<float>& azimuth_rad) const {
-  for (std::size_t i = 0; i < beams.size(); ++i) {
-    const Eigen::Vector2f angles = beam_angles_.of(beams[i]);
-    elevation_rad[i] = angles.x();
-    azimuth_rad[i] = angles.y();
-  }
 }
 
 /// Middle of the span of the times (s) over all sweeps so far.

@@ -3,13 +3,11 @@
 
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "cloud/beam_angles.hpp"
 #include "cloud/beam_index.hpp"
 #include "cloud/beam_sample.hpp"
-#include "cloud/point_block.hpp"
 #include "cloud/thinning.hpp"
 #include "cloud/timed_cloud.hpp"
 #include "cloud/voxel_mean.hpp"
@@ -73,8 +71,6 @@ class Preprocessor {
   };
   void crop(const SweepView& sweep);
   std::size_t find_valid(const SweepView& sweep, bool timed);
-  void find_angles(std::span<const Beam> beams, PointBlock::Lanes<float>& elevation_rad,
-                   PointBlock::Lanes<float>& azimuth_rad) const;
   float middle_of_times();
   void sample_beams();
   void downsample(double source_voxel_m);

@@ -92,25 +92,27 @@ template <typename CountOf>
 void VoxelMean::Side::add(const TimedCloud& in, std::uint64_t key, std::size_t begin, std::size_t end,
                           const CountOf& count_of) {
   const bool timed = in.timed();
-  const auto point_at = [&](std::size_t i) {
-    const Eigen::Vector3f& p = in.points[i];
-    return Eigen::Array4f(p.x(), p.y(), p.z(), timed ? in.offsets_s[i] : 0.0F);
-  };
   const std::uint32_t place = number_of(key);
   if (place == means_.size()) {
-    means_.push_back({point_at(begin), Eigen::Array4f::Zero(), 0.0F, 0.0F, static_cast<std::uint32_t>(begin)});
+    means_.push_back({in.points[begin], timed ? in.offsets_s[begin] : 0.0F});
+    means_.back().first_index = static_cast<std::uint32_t>(begin);
   }
   Mean& mean = means_[place];
-  const Eigen::Array4f first = mean.first;
-  Eigen::Array4f sum = mean.sum;
+  const Eigen::Vector3f first = mean.first;
+  Eigen::Vector3f sum = mean.sum;
   float total = mean.count;
   for (std::size_t i = begin; i < end; ++i) {
     const float count = count_of(i);
-    sum += count * (point_at(i) - first);
+    sum += count * (in.points[i] - first);
     total += count;
   }
   mean.sum = sum;
   mean.count = total;
+  if (timed) {
+    for (std::size_t i = begin; i < end; ++i) {
+      mean.offset_sum_s += count_of(i) * (in.offsets_s[i] - mean.first_offset_s);
+    }
+  }
   if (!in.intensities.empty()) {
     for (std::size_t i = begin; i < end; ++i) {
       mean.intensity_sum += count_of(i) * in.intensities[i];
@@ -176,11 +178,10 @@ void VoxelMean::write(const TimedCloud& in, TimedCloud& out) const {
     const std::uint32_t until = first_of(1 - least);
     for (; first_of(least) < until; ++n, ++next[least]) {
       const Mean& mean = *next[least];
-      const Eigen::Array4f point = mean.first + mean.sum / mean.count;
-      out.points[n] = point.head<3>();
+      out.points[n] = mean.first + mean.sum / mean.count;
       out.counts[n] = mean.count;
       if (timed) {
-        out.offsets_s[n] = point[3];
+        out.offsets_s[n] = mean.first_offset_s + mean.offset_sum_s / mean.count;
       }
       if (intense) {
         out.intensities[n] = mean.intensity_sum / mean.count;

@@ -24,11 +24,13 @@ class VoxelMean {
  private:
   // Sums relative to a voxel's first point: exact in single precision however many there are.
   struct Mean {
-    Eigen::Array4f first;  // place and offset
-    Eigen::Array4f sum;
-    float count;
-    float intensity_sum;
-    std::uint32_t first_index;  // of the first point
+    Eigen::Vector3f first;
+    float first_offset_s;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    float offset_sum_s = 0.0F;
+    float count = 0.0F;
+    float intensity_sum = 0.0F;
+    std::uint32_t first_index = 0;  // of the first point
   };
   /// Points in a row that share a voxel, as most do along a beam. Those of a chunk of points begin at the place of its
   /// first point.

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "cloud/elevation.hpp"
 #include "cloud/fixed_chunks.hpp"
+#include "cloud/point_block.hpp"
 
 namespace rilo {
 
@@ -62,13 +62,22 @@ void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_o
   inserted_.resize(points.size());
   voxels_.resize(points.size());
   for_fixed_chunks(points.size(), [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Eigen::Vector3d place = T_odom_lidar * points[i].cast<double>();
-      inserted_[i] = {place, R * points[i],
-                      R * elevation_jacobian(points[i]) + pose_by_elevation.at(place).cast<float>()};
-      const VoxelIndex voxel = finest_voxel(place);
-      voxels_[i] = i == first ? InsertedVoxel(voxel) : InsertedVoxel(voxel, voxels_[i - 1].index);
-    }
+    PointBlock p;
+    PointBlock rays;
+    PointBlock jacobians;
+    for_each_block(first, last, [&](std::size_t begin, std::size_t n) {
+      p.load(&points[begin], n);
+      rotate(R, p, rays);
+      find_elevation_jacobians(p, jacobians);
+      rotate(R, jacobians, p);
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = begin + k;
+        const Eigen::Vector3d place = T_odom_lidar * points[i].cast<double>();
+        inserted_[i] = {place, rays.at(k), p.at(k) + pose_by_elevation.at(place).cast<float>()};
+        const VoxelIndex voxel = finest_voxel(place);
+        voxels_[i] = i == first ? InsertedVoxel(voxel) : InsertedVoxel(voxel, voxels_[i - 1].index);
+      }
+    });
   });
   // The levels are independent of one another.
   for_each_index(grids_.size() - finest_, [&](std::size_t i) {

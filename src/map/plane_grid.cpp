@@ -32,20 +32,14 @@ void PlaneGrid::insert(const std::vector<InsertedPoint>& points) {
 
 void PlaneGrid::insert(const std::vector<InsertedPoint>& points, const std::vector<InsertedVoxel>& voxels,
                        int doublings) {
-  std::array<Run, kLookUpsInFlight> runs{};
-  for (std::size_t next = 0; next < points.size();) {
-    std::size_t count = 0;
-    for (; count < runs.size() && next < points.size(); ++count) {
-      Run& run = runs[count];
-      const VoxelIndex& fine = voxels[next].index;
-      run.index = {fine.x >> doublings, fine.y >> doublings, fine.z >> doublings};
-      prefetch(run.index);
-      const std::size_t first = next++;
-      while (next < points.size() && voxels[next].doublings_apart <= doublings) {
-        ++next;
-      }
-      run.points = {&points[first], next - first};
-    }
+  // While the points of some runs are added, the slots of the next are on their way from memory.
+  std::array<Run, kLookUpsInFlight> next;
+  std::array<Run, kLookUpsInFlight> runs;
+  std::size_t from = 0;
+  std::size_t coming = collect(points, voxels, doublings, from, next);
+  while (coming > 0) {
+    runs = next;
+    const std::size_t count = std::exchange(coming, collect(points, voxels, doublings, from, next));
     std::size_t open = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Slot& slot = find_or_add(voxel_key(runs[i].index));
@@ -59,6 +53,46 @@ void PlaneGrid::insert(const std::vector<InsertedPoint>& points, const std::vect
       add(runs[i]);
     }
   }
+}
+
+std::size_t PlaneGrid::collect(std::span<const InsertedPoint> points, const std::vector<InsertedVoxel>& voxels,
+                               int doublings, std::size_t& from, std::span<Run> runs) const {
+  std::size_t count = 0;
+  for (; count < runs.size() && from < points.size(); ++count) {
+    const VoxelIndex& fine = voxels[from].index;
+    const VoxelIndex index{fine.x >> doublings, fine.y >> doublings, fine.z >> doublings};
+    prefetch(index);
+    const std::size_t first = from++;
+    while (from < points.size() && voxels[from].doublings_apart <= doublings) {
+      ++from;
+    }
+    runs[count] = {index, kNone, points.subspan(first, from - first)};
+  }
+  return count;
+}
+
+void PlaneGrid::Voxel::forget_half() {
+  const std::int32_t kept = count / 2;
+  const float share = static_cast<float>(kept) / static_cast<float>(count);
+  count = kept;
+  fitted_count = kept;
+  sum *= share;
+  squares *= share;
+  elevation_jacobian_sum *= share;
+  ray_sum *= share;
+}
+
+inline void PlaneGrid::Voxel::add(const Eigen::Vector3f& d, const InsertedPoint& point) {
+  sum += d;
+  elevation_jacobian_sum += point.elevation_jacobian;
+  ray_sum += point.ray;
+  squares[0] += d.x() * d.x();
+  squares[1] += d.x() * d.y();
+  squares[2] += d.x() * d.z();
+  squares[3] += d.y() * d.y();
+  squares[4] += d.y() * d.z();
+  squares[5] += d.z() * d.z();
+  ++count;
 }
 
 void PlaneGrid::add(const Run& run) {
@@ -79,30 +113,6 @@ void PlaneGrid::add(const Run& run) {
       voxel.fitted_count = voxel.count;
     }
   }
-}
-
-void PlaneGrid::Voxel::forget_half() {
-  const std::int32_t kept = count / 2;
-  const float share = static_cast<float>(kept) / static_cast<float>(count);
-  count = kept;
-  fitted_count = kept;
-  sum *= share;
-  squares *= share;
-  elevation_jacobian_sum *= share;
-  ray_sum *= share;
-}
-
-void PlaneGrid::Voxel::add(const Eigen::Vector3f& d, const InsertedPoint& point) {
-  sum += d;
-  elevation_jacobian_sum += point.elevation_jacobian;
-  ray_sum += point.ray;
-  squares[0] += d.x() * d.x();
-  squares[1] += d.x() * d.y();
-  squares[2] += d.x() * d.z();
-  squares[3] += d.y() * d.y();
-  squares[4] += d.y() * d.z();
-  squares[5] += d.z() * d.z();
-  ++count;
 }
 
 void PlaneGrid::shift_elevation(double angle_rad, const PoseDerivative& sensor) {

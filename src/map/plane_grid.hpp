@@ -221,6 +221,9 @@ class PlaneGrid {
     __builtin_prefetch(begin);
     __builtin_prefetch(begin + sizeof(Voxel) - 1);  // no voxel lies in one cache line
   }
+  /// The next runs of points, from the point `from` on; moves that on. Returns how many.
+  std::size_t collect(std::span<const InsertedPoint> points, const std::vector<InsertedVoxel>& voxels, int doublings,
+                      std::size_t& from, std::span<Run> runs) const;
   void add(const Run& run);
   void erase(std::uint32_t voxel);
   void grow();

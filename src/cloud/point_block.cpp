@@ -111,6 +111,31 @@ RILO_WIDE void rotate(const Eigen::Matrix3f& R, const PointBlock& p, PointBlock&
   }
 }
 
+RILO_WIDE void transform(const SE3& T, const PointBlock& p, PlaceBlock& places) {
+  const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> m = T.matrix().topRows<3>();
+  const double* const r = m.data();
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const auto x = static_cast<double>(p.x[i]);
+    const auto y = static_cast<double>(p.y[i]);
+    const auto z = static_cast<double>(p.z[i]);
+    places.x[i] = r[0] * x + r[1] * y + r[2] * z + r[3];
+    places.y[i] = r[4] * x + r[5] * y + r[6] * z + r[7];
+    places.z[i] = r[8] * x + r[9] * y + r[10] * z + r[11];
+  }
+}
+
+RILO_WIDE void add_derivatives(const PoseDerivative& derivative, const PlaceBlock& places, PointBlock& to) {
+  const PoseDerivative d = derivative;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const double x = places.x[i] - d.origin.x();
+    const double y = places.y[i] - d.origin.y();
+    const double z = places.z[i] - d.origin.z();
+    to.x[i] += static_cast<float>(d.translation.x() + (d.rotation.y() * z - d.rotation.z() * y));
+    to.y[i] += static_cast<float>(d.translation.y() + (d.rotation.z() * x - d.rotation.x() * z));
+    to.z[i] += static_cast<float>(d.translation.z() + (d.rotation.x() * y - d.rotation.y() * x));
+  }
+}
+
 RILO_WIDE void find_elevation_jacobians(const PointBlock& p, PointBlock& jacobians) {
   for (std::size_t i = 0; i < kSize; ++i) {
     const float horizontal = std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i]);

@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 
 #include "cloud/elevation.hpp"
+#include "geometry/pose_derivative.hpp"
+#include "rilo/geometry/se3.hpp"
 
 namespace rilo {
 
@@ -55,6 +57,15 @@ struct PointBlock {
   }
 };
 
+/// Where such points lie in another frame.
+struct PlaceBlock {
+  alignas(64) PointBlock::Lanes<double> x;
+  alignas(64) PointBlock::Lanes<double> y;
+  alignas(64) PointBlock::Lanes<double> z;
+
+  Eigen::Vector3d at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
 /// Calls use(first, n) for the consecutive blocks of the points first … last − 1.
 template <typename Use>
 void for_each_block(std::size_t first, std::size_t last, const Use& use) {
@@ -89,6 +100,12 @@ void turn_beams(PointBlock& p, const PointBlock::Lanes<float>& elevation_rad,
 
 /// R p of each point.
 void rotate(const Eigen::Matrix3f& R, const PointBlock& p, PointBlock& rotated);
+
+/// T p of each point.
+void transform(const SE3& T, const PointBlock& p, PlaceBlock& places);
+
+/// Adds derivative.at(place) of each place.
+void add_derivatives(const PoseDerivative& derivative, const PlaceBlock& places, PointBlock& to);
 
 /// elevation_jacobian() of each point.
 void find_elevation_jacobians(const PointBlock& p, PointBlock& jacobians);

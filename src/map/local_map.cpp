@@ -65,15 +65,18 @@ void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_o
     PointBlock p;
     PointBlock rays;
     PointBlock jacobians;
+    PlaceBlock places;
     for_each_block(first, last, [&](std::size_t begin, std::size_t n) {
       p.load(&points[begin], n);
       rotate(R, p, rays);
       find_elevation_jacobians(p, jacobians);
+      transform(T_odom_lidar, p, places);
       rotate(R, jacobians, p);
+      add_derivatives(pose_by_elevation, places, p);
       for (std::size_t k = 0; k < n; ++k) {
         const std::size_t i = begin + k;
-        const Eigen::Vector3d place = T_odom_lidar * points[i].cast<double>();
-        inserted_[i] = {place, rays.at(k), p.at(k) + pose_by_elevation.at(place).cast<float>()};
+        const Eigen::Vector3d place = places.at(k);
+        inserted_[i] = {place, rays.at(k), p.at(k)};
         const VoxelIndex voxel = finest_voxel(place);
         voxels_[i] = i == first ? InsertedVoxel(voxel) : InsertedVoxel(voxel, voxels_[i - 1].index);
       }

@@ -33,13 +33,12 @@ void PlaneGrid::insert(const std::vector<InsertedPoint>& points) {
 void PlaneGrid::insert(const std::vector<InsertedPoint>& points, const std::vector<InsertedVoxel>& voxels,
                        int doublings) {
   // While the points of some runs are added, the slots of the next are on their way from memory.
-  std::array<Run, kLookUpsInFlight> next;
-  std::array<Run, kLookUpsInFlight> runs;
+  std::array<std::array<Run, kLookUpsInFlight>, 2> batches;
   std::size_t from = 0;
-  std::size_t coming = collect(points, voxels, doublings, from, next);
-  while (coming > 0) {
-    runs = next;
-    const std::size_t count = std::exchange(coming, collect(points, voxels, doublings, from, next));
+  std::size_t coming = collect(points, voxels, doublings, from, batches[0]);
+  for (std::size_t turn = 0; coming > 0; turn ^= 1U) {
+    auto& runs = batches[turn];
+    const std::size_t count = std::exchange(coming, collect(points, voxels, doublings, from, batches[turn ^ 1U]));
     std::size_t open = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Slot& slot = find_or_add(voxel_key(runs[i].index));

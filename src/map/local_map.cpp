@@ -91,7 +91,9 @@ void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_o
 }
 
 void LocalMap::shift_elevation(double angle_rad, const PoseDerivative& sensor) {
-  for_each_index(grids_.size(), [&](std::size_t i) { grids_[i].shift_elevation(angle_rad, sensor); });
+  for (PlaneGrid& grid : grids_) {
+    grid.shift_elevation(angle_rad, sensor);
+  }
 }
 
 void LocalMap::evict(const Eigen::Vector3d& centre) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cloud/fixed_chunks.hpp"
+
 namespace rilo {
 
 namespace {
@@ -115,27 +117,29 @@ void PlaneGrid::add(const Run& run) {
 }
 
 void PlaneGrid::shift_elevation(double angle_rad, const PoseDerivative& sensor) {
-  for (std::size_t id = 0; id < pool_.size(); ++id) {
-    Voxel& voxel = pool_[id];
-    if (voxel.count == 0) {
-      continue;
+  for_fixed_chunks(pool_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t id = first; id < last; ++id) {
+      Voxel& voxel = pool_[id];
+      if (voxel.count == 0) {
+        continue;
+      }
+      // Every point moves by the mean: what differs between them is of second order.
+      const auto n = static_cast<float>(voxel.count);
+      const Eigen::Vector3d centroid = centre_of(voxel) + (voxel.sum / n).cast<double>();
+      const Eigen::Vector3f own = sensor.at(centroid).cast<float>();
+      const Eigen::Vector3f shift = static_cast<float>(angle_rad) * (voxel.elevation_jacobian_sum / n - own);
+      const Eigen::Matrix3f moved = voxel.sum * shift.transpose();
+      const Eigen::Matrix3f change = moved + moved.transpose() + n * shift * shift.transpose();
+      voxel.squares[0] += change(0, 0);
+      voxel.squares[1] += change(0, 1);
+      voxel.squares[2] += change(0, 2);
+      voxel.squares[3] += change(1, 1);
+      voxel.squares[4] += change(1, 2);
+      voxel.squares[5] += change(2, 2);
+      voxel.sum += n * shift;
+      planes_[id].mean += shift;
     }
-    // Every point moves by the mean: what differs between them is of second order.
-    const auto n = static_cast<float>(voxel.count);
-    const Eigen::Vector3d centroid = centre_of(voxel) + (voxel.sum / n).cast<double>();
-    const Eigen::Vector3f own = sensor.at(centroid).cast<float>();
-    const Eigen::Vector3f shift = static_cast<float>(angle_rad) * (voxel.elevation_jacobian_sum / n - own);
-    const Eigen::Matrix3f moved = voxel.sum * shift.transpose();
-    const Eigen::Matrix3f change = moved + moved.transpose() + n * shift * shift.transpose();
-    voxel.squares[0] += change(0, 0);
-    voxel.squares[1] += change(0, 1);
-    voxel.squares[2] += change(0, 2);
-    voxel.squares[3] += change(1, 1);
-    voxel.squares[4] += change(1, 2);
-    voxel.squares[5] += change(2, 2);
-    voxel.sum += n * shift;
-    planes_[id].mean += shift;
-  }
+  });
 }
 
 bool PlaneGrid::find(const Eigen::Vector3d& p, MapPlane& plane) const {

@@ -1,6 +1,7 @@
 // Motion compensation against the exponential of every single point.
 #include "cloud/deskew.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -99,6 +100,25 @@ TEST(DeskewTest, OneInstantForAllPoints) {
   TimedCloud cloud = sphere(100, 50.0F, 0.0F, 0.1F);
   cloud.offsets_s.assign(cloud.size(), 0.07F);
   EXPECT_LT(worst_error_m(cloud, {Vector6d::Ones()}), 3e-5);
+}
+
+TEST(DeskewTest, TheSpanIsThatOfAllInstantsWhereverTheEndsLie) {
+  const BodyMotion motion{(Vector6d() << 0.0, 0.0, 3.0, 10.0, 0.0, 0.0).finished()};
+  for (const std::size_t count : {1U, 15U, 16U, 37U, 64U}) {
+    for (std::size_t k = 0; k < count; ++k) {
+      TimedCloud cloud;
+      cloud.points.assign(count, Eigen::Vector3f(20.0F, 3.0F, 1.0F));
+      cloud.offsets_s.assign(count, 0.01F);
+      cloud.offsets_s[k] = -0.05F;
+      cloud.offsets_s[(k + 5) % count] = 0.04F;
+      const auto [begin, end] = std::minmax_element(cloud.offsets_s.begin(), cloud.offsets_s.end());
+      const SweepMotion expected(motion, *begin, *end);
+      const SweepMotion during = SweepMotion::during(cloud, motion);
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(during.compensated(cloud, i), expected.compensated(cloud, i)) << count << ' ' << k;
+      }
+    }
+  }
 }
 
 TEST(DeskewTest, InstantsOutsideTheTableUseItsEnds) {

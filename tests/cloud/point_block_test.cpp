@@ -113,6 +113,49 @@ TEST(PointBlock, RotationInElevation) {
   }
 }
 
+TEST(PointBlock, SpansOfTheTimesInRange) {
+  PointBlock::Lanes<float> begins;
+  PointBlock::Lanes<float> ends;
+  begins.fill(0.5F);
+  ends.fill(0.6F);
+  PointBlock::Lanes<float> times{};
+  PointBlock::Lanes<int> in_range{};
+  times[1] = 0.7F;
+  times[2] = times[3] = 0.1F;
+  times[4] = kNotANumber;
+  in_range[1] = in_range[2] = 1;
+  widen_spans(times, in_range, begins, ends);
+  for (std::size_t i = 0; i < kSize; ++i) {
+    EXPECT_EQ(begins[i], i == 2 ? 0.1F : 0.5F) << i;
+    EXPECT_EQ(ends[i], i == 1 ? 0.7F : 0.6F) << i;
+  }
+}
+
+TEST(PointBlock, PlacesRaysAndTheirDerivatives) {
+  const std::vector<Eigen::Vector3f> p = points();
+  const PointBlock block = block_of(p);
+  SE3 T = SE3::Identity();
+  T.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.2, -0.5, 0.8).normalized()));
+  T.translation() = Eigen::Vector3d(300.1, -20.3, 4.7);
+  const Eigen::Matrix3f R = T.linear().cast<float>();
+  const PoseDerivative derivative{{299.0, 1.0, -2.0}, {0.3, -0.1, 0.2}, {-3.0, 0.4, 5.0}};
+  PointBlock rays;
+  PointBlock jacobians;
+  PlaceBlock places;
+  rotate(R, block, rays);
+  find_elevation_jacobians(block, jacobians);
+  transform(T, block, places);
+  PointBlock moved = rays;
+  add_derivatives(derivative, places, moved);
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const Eigen::Vector3d place = T * p[i].cast<double>();
+    EXPECT_EQ(rays.at(i), R * p[i]) << i;
+    EXPECT_EQ(jacobians.at(i), elevation_jacobian(p[i])) << i;
+    EXPECT_EQ(places.at(i), place) << i;
+    EXPECT_EQ(moved.at(i), rays.at(i) + derivative.at(place).cast<float>()) << i;
+  }
+}
+
 TEST(PointBlock, TangentsQuadrantsAndSteps) {
   std::vector<Eigen::Vector3f> p(kSize);
   const float step = 0.1F;

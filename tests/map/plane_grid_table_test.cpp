@@ -44,6 +44,45 @@ TEST(PlaneGridTest, ManyPointsAtOnceAreTheSameAsOneByOne) {
   }
 }
 
+TEST(PlaneGridTest, RunsOfPointsFromFinerVoxelsAreTheSameAsOneByOne) {
+  // Along a line with a step back now and then, across the borders of voxels of both signs, until voxels are full.
+  std::vector<InsertedPoint> points;
+  std::vector<InsertedVoxel> voxels;
+  constexpr int kDoublings = 2;
+  const PlaneGrid finer(0.25, kCriteria);
+  for (int i = 0; i < 40000; ++i) {
+    const double along = 0.011 * ((i % 1000) - (i % 7 == 0 ? 40 : 0)) - 5.0;
+    const Eigen::Vector3d place(along, 0.3 * std::sin(0.9 * i), 0.001 * (i % 13) - 0.005 * along);
+    points.push_back({place, place.cast<float>() + Eigen::Vector3f::Ones(), place.cast<float>()});
+    const VoxelIndex voxel = finer.index_of(place);
+    voxels.push_back(i == 0 ? InsertedVoxel(voxel) : InsertedVoxel(voxel, voxels.back().index));
+  }
+  PlaneGrid runs(1.0, kCriteria);
+  PlaneGrid singly(1.0, kCriteria);
+  for (int round = 0; round < 3; ++round) {
+    runs.insert(points, voxels, kDoublings);
+    runs.refit();
+    for (const InsertedPoint& point : points) {
+      singly.insert(point);
+    }
+    singly.refit();
+  }
+  EXPECT_EQ(runs.size(), singly.size());
+  std::size_t found = 0;
+  for (const auto& [p, ray, jacobian] : points) {
+    PlaneSpot a;
+    PlaneSpot b;
+    ASSERT_EQ(runs.locate(p, a), singly.locate(p, b));
+    if (a.grid != nullptr) {
+      ++found;
+      ASSERT_EQ(runs.plane_at(a).normal, singly.plane_at(b).normal);
+      ASSERT_EQ(runs.plane_at(a).point, singly.plane_at(b).point);
+      ASSERT_EQ(runs.elevation_jacobian_at(a), singly.elevation_jacobian_at(b));
+    }
+  }
+  EXPECT_GT(found, points.size() / 2);
+}
+
 TEST(PlaneGridTest, EvictionBeforeTheRefitLeavesNoHalfFittedVoxel) {
   PlaneGrid grid(1.0, kCriteria);
   insert_plane(grid, {100.5, 0.5, 0.5}, Eigen::Vector3d::UnitZ(), 10, 0.0, 12);

@@ -42,8 +42,8 @@ struct InsertedVoxel {
   explicit InsertedVoxel(const VoxelIndex& voxel) : index(voxel) {}
   InsertedVoxel(const VoxelIndex& voxel, const VoxelIndex& before)
       : index(voxel),
-        doublings_apart(std::bit_width(
-            static_cast<std::uint32_t>((voxel.x ^ before.x) | (voxel.y ^ before.y) | (voxel.z ^ before.z)))) {}
+        doublings_apart(static_cast<int>(std::bit_width(
+            static_cast<std::uint32_t>((voxel.x ^ before.x) | (voxel.y ^ before.y) | (voxel.z ^ before.z))))) {}
 
   VoxelIndex index;
   int doublings_apart = std::numeric_limits<int>::max();

@@ -1,6 +1,7 @@
 #include "cloud/voxel_mean.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -122,9 +123,7 @@ void VoxelMean::Side::add(const TimedCloud& in, std::uint64_t key, std::size_t b
 template <typename CountOf>
 void VoxelMean::Side::add_up(const TimedCloud& in, const Runs& runs, std::uint64_t number, const CountOf& count_of) {
   start();
-  firsts_.clear();
   for (std::size_t chunk = 0; chunk < runs.counts.size(); ++chunk) {
-    firsts_.push_back(means_.size());
     const std::size_t begin = chunk * kChunkSize;
     const std::size_t end = std::min(in.size(), begin + kChunkSize);
     const std::span keys(&runs.keys[begin], runs.counts[chunk]);
@@ -155,25 +154,30 @@ void VoxelMean::average(const TimedCloud& in, double voxel_m, TimedCloud& out) {
   write(in, out);
 }
 
-// The sides merged by the first points of their voxels, chunk of points by chunk.
+// The sides merged by the first points of their voxels.
 void VoxelMean::write(const TimedCloud& in, TimedCloud& out) const {
   const bool timed = in.timed();
   const bool intense = !in.intensities.empty();
-  const std::size_t size = sides_[0].means().size() + sides_[1].means().size();
+  std::size_t size = 0;
+  std::array<const Mean*, 2> next{};
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    next[i] = sides_[i].means().data();
+    size += sides_[i].means().size();
+  }
   out.points.resize(size);
   out.counts.resize(size);
   out.offsets_s.resize(timed ? size : 0);
   out.intensities.resize(intense ? size : 0);
-  for_each_index(runs_.counts.size(), [&](std::size_t chunk) {
-    std::array<std::span<const Mean>, 2> left{sides_[0].means_of(chunk), sides_[1].means_of(chunk)};
-    auto n = static_cast<std::size_t>((left[0].data() - sides_[0].means().data()) +
-                                      (left[1].data() - sides_[1].means().data()));
-    for (; !left[0].empty() || !left[1].empty(); ++n) {
-      const bool second =
-          left[0].empty() || (!left[1].empty() && left[1].front().first_index < left[0].front().first_index);
-      std::span<const Mean>& from = left[second ? 1 : 0];
-      const Mean& mean = from.front();
-      from = from.subspan(1);
+  constexpr std::uint32_t kEnd = std::numeric_limits<std::uint32_t>::max();
+  const auto first_of = [&](std::size_t i) {
+    const std::vector<Mean>& means = sides_[i].means();
+    return next[i] == means.data() + means.size() ? kEnd : next[i]->first_index;
+  };
+  for (std::size_t n = 0; n < size;) {
+    const std::size_t least = first_of(0) < first_of(1) ? 0 : 1;
+    const std::uint32_t until = first_of(1 - least);
+    for (; first_of(least) < until; ++n, ++next[least]) {
+      const Mean& mean = *next[least];
       out.points[n] = mean.first + mean.sum / mean.count;
       out.counts[n] = mean.count;
       if (timed) {
@@ -183,7 +187,7 @@ void VoxelMean::write(const TimedCloud& in, TimedCloud& out) const {
         out.intensities[n] = mean.intensity_sum / mean.count;
       }
     }
-  });
+  }
 }
 
 }  // namespace rilo

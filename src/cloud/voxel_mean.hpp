@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -49,11 +48,6 @@ class VoxelMean {
     void add_up(const TimedCloud& in, const Runs& runs, std::uint64_t number, const CountOf& count_of);
     /// In the order of their first points.
     const std::vector<Mean>& means() const { return means_; }
-    /// Those whose first points are of that chunk.
-    std::span<const Mean> means_of(std::size_t chunk) const {
-      const std::size_t end = chunk + 1 < firsts_.size() ? firsts_[chunk + 1] : means_.size();
-      return std::span(means_).subspan(firsts_[chunk], end - firsts_[chunk]);
-    }
 
    private:
     struct Slot {
@@ -71,7 +65,6 @@ class VoxelMean {
     std::vector<Slot> slots_;
     std::uint32_t generation_ = 0;
     std::vector<Mean> means_;
-    std::vector<std::size_t> firsts_;  // of each chunk of points: its first mean
   };
   void find_runs(const TimedCloud& in, double voxel_m);
   template <typename CountOf>

@@ -19,8 +19,8 @@ struct Span {
 /// Least and largest of the times; not empty. In lanes, which become vector instructions.
 Span span_of(const std::vector<float>& times_s) {
   constexpr std::size_t kLanes = 16;
-  std::array<float, kLanes> least;
-  std::array<float, kLanes> most;
+  std::array<float, kLanes> least{};
+  std::array<float, kLanes> most{};
   least.fill(times_s.front());
   most.fill(times_s.front());
   std::size_t i = 0;

@@ -78,7 +78,7 @@ void PlaneGrid::fit(std::uint32_t id) {
   const Kind kind = keep_surface(id, C, voxel.ray_sum.cast<double>() / n);
   planes_[id].mean = mean.cast<float>();
   voxel.fit = kind == Kind::kPlane ? Fit::kPlane : Fit::kNoPlane;
-  Slot& slot = slots_[slot_of(voxel.key)];
+  Slot& slot = slot_at(slot_of(voxel.key));
   slot.kind = kind;
   slot.full = slot.full && kind == Kind::kPlane;
 }

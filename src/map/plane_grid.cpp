@@ -14,7 +14,7 @@ constexpr double kFaceShare = 0.2;  // of the voxel: a point this near to a face
 }  // namespace
 
 PlaneGrid::PlaneGrid(double voxel_m, const PlaneCriteria& criteria)
-    : voxel_m_(voxel_m), inverse_(1.0 / voxel_m), criteria_(criteria), slots_(kFirstVoxelSlots) {}
+    : voxel_m_(voxel_m), inverse_(1.0 / voxel_m), criteria_(criteria), lines_(kFirstVoxelSlots / kLineSlots) {}
 
 Eigen::Vector3d PlaneGrid::centre_of(const Voxel& voxel) const { return centre_of(voxel_of_key(voxel.key, place_)); }
 
@@ -102,7 +102,7 @@ void PlaneGrid::add(const Run& run) {
   for (const InsertedPoint& point : run.points) {
     if (voxel.count >= criteria_.max_points) {
       if (voxel.fit != Fit::kNoPlane) {
-        slots_[slot_of(voxel.key)].full = voxel.fit == Fit::kPlane;
+        slot_at(slot_of(voxel.key)).full = voxel.fit == Fit::kPlane;
         return;
       }
       voxel.forget_half();
@@ -159,7 +159,7 @@ bool PlaneGrid::locate(const Eigen::Vector3d& p, PlaneSpot& spot) const {
 }
 
 PlaneGrid::Kind PlaneGrid::look_up(const VoxelIndex& index, PlaneSpot& spot) const {
-  const Slot& slot = slots_[slot_of(voxel_key(index))];
+  const Slot& slot = slot_at(slot_of(voxel_key(index)));
   if (slot.voxel == kNone) {
     return Kind::kNone;
   }
@@ -203,11 +203,11 @@ MapScatter PlaneGrid::scatter_at(const PlaneSpot& spot) const {
 }
 
 bool PlaneGrid::occupied(const Eigen::Vector3d& p) const {
-  return slots_[slot_of(voxel_key(voxel_of(p, inverse_)))].voxel != kNone;
+  return slot_at(slot_of(voxel_key(voxel_of(p, inverse_)))).voxel != kNone;
 }
 
 PlaneGrid::Slot& PlaneGrid::find_or_add(std::uint64_t key) {
-  Slot& slot = slots_[slot_of(key)];
+  Slot& slot = slot_at(slot_of(key));
   if (slot.voxel != kNone) {
     return slot;
   }
@@ -222,34 +222,36 @@ PlaneGrid::Slot& PlaneGrid::find_or_add(std::uint64_t key) {
   }
   pool_[id].key = key;
   slot = {key, id, Kind::kNone, false};
-  if (++used_ * 2 <= slots_.size()) {
+  if (++used_ * 2 <= last_slot() + 1) {
     return slot;
   }
   grow();
-  return slots_[slot_of(key)];
+  return slot_at(slot_of(key));
 }
 
 void PlaneGrid::grow() {
-  const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(slots_.size() * 2));
-  for (const Slot& slot : old) {
-    if (slot.voxel != kNone) {
-      slots_[slot_of(slot.key)] = slot;
+  const std::vector<SlotLine> old = std::exchange(lines_, std::vector<SlotLine>(lines_.size() * 2));
+  for (const SlotLine& line : old) {
+    for (const Slot& slot : line.slots) {
+      if (slot.voxel != kNone) {
+        slot_at(slot_of(slot.key)) = slot;
+      }
     }
   }
 }
 
 void PlaneGrid::erase(std::uint32_t voxel) {
-  const std::size_t mask = slots_.size() - 1;
+  const std::size_t mask = last_slot();
   std::size_t hole = slot_of(pool_[voxel].key);
   // Backward shift: later entries of the probe sequence move up, so that no tombstones slow the look-ups down.
-  for (std::size_t next = (hole + 1) & mask; slots_[next].voxel != kNone; next = (next + 1) & mask) {
-    const std::size_t home = mix_key(slots_[next].key) & mask;
+  for (std::size_t next = (hole + 1) & mask; slot_at(next).voxel != kNone; next = (next + 1) & mask) {
+    const std::size_t home = home_of(slot_at(next).key);
     if (((next - home) & mask) >= ((next - hole) & mask)) {
-      slots_[hole] = slots_[next];
+      slot_at(hole) = slot_at(next);
       hole = next;
     }
   }
-  slots_[hole] = Slot{};
+  slot_at(hole) = Slot{};
   pool_[voxel] = Voxel{};
   free_.push_back(voxel);
   --used_;

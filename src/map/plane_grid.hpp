@@ -1,6 +1,7 @@
 // One level of the local map: voxels that keep the moments of their points and the plane through them.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -120,6 +121,10 @@ class PlaneGrid {
 
   /// The points there, which are not a plane but spread in all directions.
   MapScatter scatter_at(const PlaneSpot& spot) const;
+  void prefetch_scatter(const PlaneSpot& spot) const {
+    __builtin_prefetch(&planes_[spot.voxel]);
+    __builtin_prefetch(&extents_[spot.voxel]);
+  }
 
   /// What the points of a voxel are.
   enum class Kind : std::uint8_t { kNone, kPlane, kScatter };
@@ -130,9 +135,7 @@ class PlaneGrid {
   /// ... the one behind the face near `p`, which lies in `index`; false when `p` is not near a face, ...
   bool behind_face(const Eigen::Vector3d& p, const VoxelIndex& index, VoxelIndex& behind) const;
   /// ... and the memory that look_up(index) reads first.
-  void prefetch(const VoxelIndex& index) const {
-    __builtin_prefetch(&slots_[mix_key(voxel_key(index)) & (slots_.size() - 1)]);
-  }
+  void prefetch(const VoxelIndex& index) const { __builtin_prefetch(&slot_at(home_of(voxel_key(index)))); }
   VoxelIndex index_of(const Eigen::Vector3d& p) const { return voxel_of(p, inverse_); }
 
   /// Derivative of the centroid of the points there with respect to the elevation offset, m/rad: mean over its points.
@@ -195,16 +198,30 @@ class PlaneGrid {
     Kind kind = Kind::kNone;
     bool full = false;  // has a plane and takes no more points
   };
+  static constexpr std::size_t kLineSlots = 4;
+  struct alignas(64) SlotLine {  // a cache line
+    std::array<Slot, kLineSlots> slots;
+  };
 
   Eigen::Vector3d centre_of(const VoxelIndex& index) const {
     return voxel_m_ * Eigen::Vector3d(index.x + 0.5, index.y + 0.5, index.z + 0.5);
   }
   Eigen::Vector3d centre_of(const Voxel& voxel) const;
+  Slot& slot_at(std::size_t i) { return lines_[i / kLineSlots].slots[i % kLineSlots]; }
+  const Slot& slot_at(std::size_t i) const { return lines_[i / kLineSlots].slots[i % kLineSlots]; }
+  std::size_t last_slot() const { return lines_.size() * kLineSlots - 1; }
+  /// The slot where the probe sequence of `key` begins: the four voxels of a block of 2 × 2 share a cache line, since
+  /// points that are looked up one after the other lie side by side.
+  std::size_t home_of(std::uint64_t key) const {
+    constexpr std::uint64_t kYBit = 1ULL << 21U;
+    const std::uint64_t place = (key & 1U) | ((key & kYBit) >> 20U);
+    return (mix_key(key & ~(kYBit | 1U)) * kLineSlots + place) & last_slot();
+  }
   /// The slot that holds `key`, or the free one that ends its probe sequence.
   std::size_t slot_of(std::uint64_t key) const {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = mix_key(key) & mask;
-    while (slots_[slot].voxel != kNone && slots_[slot].key != key) {
+    const std::size_t mask = last_slot();
+    std::size_t slot = home_of(key);
+    while (slot_at(slot).voxel != kNone && slot_at(slot).key != key) {
       slot = (slot + 1) & mask;
     }
     return slot;
@@ -235,8 +252,8 @@ class PlaneGrid {
   double voxel_m_;
   double inverse_;
   PlaneCriteria criteria_;
-  VoxelIndex place_;  // of the last eviction: keys mean the voxels around it
-  std::vector<Slot> slots_;
+  VoxelIndex place_;             // of the last eviction: keys mean the voxels around it
+  std::vector<SlotLine> lines_;  // the hash table
   ChunkedPool<Voxel> pool_;
   ChunkedPool<Plane> planes_;    // of the voxels of pool_
   ChunkedPool<Extent> extents_;  // of the same

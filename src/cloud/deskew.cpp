@@ -11,13 +11,8 @@ namespace rilo {
 namespace {
 constexpr int kKnots = 129;  // see SweepMotion for the error that is left
 
-struct Span {
-  float begin_s;
-  float end_s;
-};
-
 /// Least and largest of the times; not empty. In lanes, which become vector instructions.
-Span span_of(const std::vector<float>& times_s) {
+SweepSpan span_of(const std::vector<float>& times_s) {
   constexpr std::size_t kLanes = 16;
   std::array<float, kLanes> least{};
   std::array<float, kLanes> most{};
@@ -38,8 +33,11 @@ Span span_of(const std::vector<float>& times_s) {
 }
 }  // namespace
 
-SweepMotion::SweepMotion(const BodyMotion& motion, float begin_s, float end_s) : begin_s_(begin_s) {
-  const float span = end_s - begin_s;
+SweepSpan SweepSpan::of(const TimedCloud& cloud) { return cloud.timed() ? span_of(cloud.offsets_s) : SweepSpan{}; }
+
+SweepMotion::SweepMotion(const BodyMotion& motion, const SweepSpan& of) : begin_s_(of.begin_s) {
+  const float begin_s = of.begin_s;
+  const float span = of.end_s - begin_s;
   last_ = span > 0.0F ? kKnots - 1 : 0;
   inverse_step_ = span > 0.0F ? static_cast<float>(last_) / span : 0.0F;
   knots_.reserve(static_cast<std::size_t>(last_) + 1);
@@ -51,14 +49,6 @@ SweepMotion::SweepMotion(const BodyMotion& motion, float begin_s, float end_s) :
     knots_.push_back({T.linear().cast<float>(), T.translation().cast<float>(), twist.head<3>().cast<float>(),
                       twist.tail<3>().cast<float>(), offset});
   }
-}
-
-SweepMotion SweepMotion::during(const TimedCloud& cloud, const BodyMotion& motion) {
-  if (!cloud.timed()) {
-    return {motion, 0.0F, 0.0F};
-  }
-  const Span span = span_of(cloud.offsets_s);
-  return {motion, span.begin_s, span.end_s};
 }
 
 void deskew(const TimedCloud& cloud, const BodyMotion& motion, std::vector<Eigen::Vector3f>& out) {

@@ -17,15 +17,25 @@ struct BodyMotion {
   Vector6d acceleration = Vector6d::Zero();  ///< [rad/s²; m/s²], constant during the sweep
 };
 
+/// From the first to the last offset of the points of a sweep; zero without times.
+struct SweepSpan {
+  float begin_s = 0.0F;
+  float end_s = 0.0F;
+
+  static SweepSpan of(const TimedCloud& cloud);
+};
+
 /// Motion of the sensor during a sweep at constant acceleration, tabulated: the exponential is evaluated at a fixed
 /// number of times, and the small remainder to a point's own time is of second order. The error is below a tenth of a
 /// millimetre at 100 m, 360 °/s and 30 m/s over a sweep of 0.1 s, a fifth of one at 30 m, 50 rad/s² and 40 m/s².
 class SweepMotion {
  public:
-  /// `begin_s`, `end_s`: span of the offsets that will be asked for.
-  SweepMotion(const BodyMotion& motion, float begin_s, float end_s);
+  /// `span`: of the offsets that will be asked for.
+  SweepMotion(const BodyMotion& motion, const SweepSpan& span);
   /// Over the span of the cloud's offsets.
-  static SweepMotion during(const TimedCloud& cloud, const BodyMotion& motion);
+  static SweepMotion during(const TimedCloud& cloud, const BodyMotion& motion) {
+    return {motion, SweepSpan::of(cloud)};
+  }
 
   /// Point `p` measured at `offset_s`, expressed in the sensor frame at the reference time (offset 0).
   Eigen::Vector3f compensate(const Eigen::Vector3f& p, float offset_s) const {

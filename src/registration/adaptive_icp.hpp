@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -93,24 +94,37 @@ class PlaneMatches {
   const Matrix6d& unconfirmed() const { return unconfirmed_; }
 
  private:
+  enum class Meets : std::uint8_t { kUnknown, kNothing, kPlane, kScatter };
+  /// What every iteration reads.
   struct Match {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     float weight = 0.0F;
     double distance_m = 0;  // of the plane from the origin along its normal
-    PlaneSpot spot;         // empty: no correspondence
     VoxelIndex voxel;       // the finest one, that of the point when it was looked up
-    bool looked_up = false;
-    bool looked_wider = false;  // only where it was asked for
-    Eigen::Vector3f wider_normal = Eigen::Vector3f::Zero();
+    Meets meets = Meets::kUnknown;
+  };
+  struct WiderNormal {
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+    bool known = false;  // only where it was asked for
   };
   /// Finds the correspondences of those of the points `first`, `first` + 1, … of the strided cloud meet that have left
   /// their voxel.
   void look_up(const LocalMap& map, std::size_t first, std::span<const Eigen::Vector3d> world, std::size_t stride);
 
-  /// The normal of a wider plane around that of `match`, to the same side; its own when there is none.
-  static const Eigen::Vector3f& wider_normal(const LocalMap& map, Match& match);
+  /// The normal of a wider plane around that of the point `i`, to the same side; its own when there is none.
+  const Eigen::Vector3f& wider_normal(const LocalMap& map, std::size_t i);
 
-  std::vector<Match> matches_;  // of all points
+  /// What the point `i` reads from the map in every iteration.
+  void prefetch(std::size_t i) const {
+    if (matches_[i].meets == Meets::kScatter) {
+      spots_[i].grid->prefetch_scatter(spots_[i]);
+    }
+  }
+
+  std::vector<Match> matches_;      // of all points
+  std::vector<PlaneSpot> spots_;    // where they are met
+  std::vector<WiderNormal> wider_;  // of every kSparseStride-th point
+  std::optional<SweepSpan> span_;   // of the source
   bool frozen_ = false;
   Matrix6d unconfirmed_ = Matrix6d::Zero();
 };

@@ -1,5 +1,9 @@
 #include "registration/normal_equations.hpp"
 
+#include <cstring>
+
+#include "geometry/wide.hpp"
+
 namespace rilo {
 
 namespace {
@@ -40,6 +44,41 @@ Vector12d NormalEquations::gradient() const {
   Vector12d b;
   b << b0, b1;
   return b;
+}
+
+void ResidualBlock::flush() {
+  sum(rows_.data(), used_, sums_);
+  used_ = 0;
+}
+
+// Each element is summed over the rows in their order, whatever the width of a register.
+RILO_WIDE void ResidualBlock::sum(const Row* rows, std::size_t n, NormalEquations& sums) {
+  using Lanes = double __attribute__((vector_size(4 * sizeof(double))));
+  constexpr std::size_t kLanes = sizeof(Lanes) / sizeof(double);
+  static_assert(PackedSymmetric6::SizeAtCompileTime % kLanes == 0);
+  for (std::size_t first = 0; first < PackedSymmetric6::SizeAtCompileTime; first += kLanes) {
+    Lanes h0;
+    Lanes h1;
+    Lanes h2;
+    std::memcpy(&h0, &sums.H0[first], sizeof(Lanes));
+    std::memcpy(&h1, &sums.H1[first], sizeof(Lanes));
+    std::memcpy(&h2, &sums.H2[first], sizeof(Lanes));
+    for (std::size_t k = 0; k < n; ++k) {
+      const double s = rows[k].s;
+      Lanes h;
+      std::memcpy(&h, &rows[k].h[first], sizeof(Lanes));
+      h0 += h;
+      h1 += s * h;
+      h2 += s * s * h;
+    }
+    std::memcpy(&sums.H0[first], &h0, sizeof(Lanes));
+    std::memcpy(&sums.H1[first], &h1, sizeof(Lanes));
+    std::memcpy(&sums.H2[first], &h2, sizeof(Lanes));
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    sums.b0 += rows[k].e * rows[k].wJ;
+    sums.b1 += rows[k].s * rows[k].e * rows[k].wJ;
+  }
 }
 
 }  // namespace rilo

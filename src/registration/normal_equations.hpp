@@ -1,6 +1,7 @@
 // Normal equations of scalar residuals on a pose and on the velocity during a sweep.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include <Eigen/Core>
@@ -14,19 +15,6 @@ inline constexpr std::size_t kLeastCorrespondences = 10;
 
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
-
-/// Lower triangle of Σ J Jᵀ over directions d with J = [(q × d)ᵀ dᵀ] and M = Σ d dᵀ.
-inline Matrix6d jacobian_moment(const Eigen::Vector3d& q, const Eigen::Matrix3d& M) {
-  Matrix6d h = Matrix6d::Zero();
-  for (int c = 0; c < 3; ++c) {
-    h.block<1, 3>(3 + c, 0) = q.cross(M.col(c)).transpose();
-    h.block<3, 1>(3, 3 + c) = M.col(c);
-  }
-  for (int c = 0; c < 3; ++c) {
-    h.block<3, 1>(0, c) = q.cross(h.block<3, 1>(3, c));
-  }
-  return h;
-}
 
 /// Lower triangle of a symmetric 6×6 matrix, column by column. Columns begin at even rows, so that they are whole pairs
 /// of doubles; what that adds above the diagonal is not read.
@@ -44,10 +32,20 @@ inline PackedSymmetric6 packed_product(const Vector6d& wJ, const Vector6d& J) {
   return h;
 }
 
-/// Of the lower triangle of `m`.
-inline PackedSymmetric6 packed(const Matrix6d& m) {
-  PackedSymmetric6 h;
-  h << m.col(0), m.col(1), m.col(2).tail<4>(), m.col(3).tail<4>(), m.col(4).tail<2>(), m.col(5).tail<2>();
+/// The same for Σ J Jᵀ over directions d with J = [(q × d)ᵀ dᵀ] and M = Σ d dᵀ.
+inline PackedSymmetric6 packed_moment(const Eigen::Vector3d& q, const Eigen::Matrix3d& M) {
+  Eigen::Matrix3d A;  // column c: q × M.col(c)
+  A << q.cross(M.col(0)), q.cross(M.col(1)), q.cross(M.col(2));
+  PackedSymmetric6 h = PackedSymmetric6::Zero();
+  h.segment<3>(0) = q.cross(A.row(0));
+  h.segment<3>(3) = A.row(0);
+  h.segment<3>(6) = q.cross(A.row(1));
+  h.segment<3>(9) = A.row(1);
+  h[12] = q.x() * A(2, 1) - q.y() * A(2, 0);
+  h.segment<3>(13) = A.row(2);
+  h.segment<3>(17) = M.col(0);
+  h.segment<2>(20) = M.col(1).tail<2>();
+  h[23] = M(2, 2);
   return h;
 }
 
@@ -73,30 +71,6 @@ struct NormalEquations {
     ++count;
   }
 
-  void add(const Vector6d& J, double e, double w, double s) {
-    const Vector6d wJ = w * J;
-    add_products(packed_product(wJ, J), s);
-    b0 += e * wJ;
-    b1 += s * e * wJ;
-    weight += w;
-    squared_error += w * e * e;
-    ++count;
-  }
-
-  /// Adds residuals of one point along several directions at once: J = [(q × d)ᵀ dᵀ] for each direction d, with
-  /// M = Σ w d dᵀ, g = Σ w e d over them, `w` = Σ w, `we2` = Σ w e² and `n` how many there are.
-  void add(const Eigen::Vector3d& q, const Eigen::Matrix3d& M, const Eigen::Vector3d& g, double w, double we2,
-           std::size_t n, double s) {
-    add_products(packed(jacobian_moment(q, M)), s);
-    Vector6d b;
-    b << q.cross(g), g;
-    b0 += b;
-    b1 += s * b;
-    weight += w;
-    squared_error += we2;
-    count += n;
-  }
-
   NormalEquations& operator+=(const NormalEquations& other);
 
   /// Symmetric 6×6 Hessian of the pose.
@@ -105,13 +79,62 @@ struct NormalEquations {
   Matrix12d hessian() const;
   /// Gradient of pose and velocity.
   Vector12d gradient() const;
+};
+
+/// Adds residuals to normal equations a block at a time: their sums then stay in registers.
+class ResidualBlock {
+ public:
+  explicit ResidualBlock(NormalEquations& sums) : sums_(sums) {}
+
+  void add(const Vector6d& J, double e, double w, double s) {
+    Row& row = next();
+    row.wJ = w * J;
+    row.h = packed_product(row.wJ, J);
+    row.e = e;
+    row.s = s;
+    count(w, w * e * e, 1);
+  }
+
+  /// Adds residuals of one point along several directions at once: J = [(q × d)ᵀ dᵀ] for each direction d, with
+  /// M = Σ w d dᵀ, g = Σ w e d over them, `w` = Σ w, `we2` = Σ w e² and `n` how many there are.
+  void add(const Eigen::Vector3d& q, const Eigen::Matrix3d& M, const Eigen::Vector3d& g, double w, double we2,
+           std::size_t n, double s) {
+    Row& row = next();
+    row.wJ << q.cross(g), g;
+    row.h = packed_moment(q, M);
+    row.e = 1.0;
+    row.s = s;
+    count(w, we2, n);
+  }
+
+  /// Adds what has been gathered; afterwards the sums are complete.
+  void flush();
 
  private:
-  void add_products(const PackedSymmetric6& h, double s) {
-    H0 += h;
-    H1 += s * h;
-    H2 += s * s * h;
+  struct Row {
+    PackedSymmetric6 h;  // w J Jᵀ
+    Vector6d wJ;
+    double e = 0;
+    double s = 0;
+  };
+  static constexpr std::size_t kRows = 32;  // 8 kB: they stay in the nearest cache
+  static void sum(const Row* rows, std::size_t n, NormalEquations& sums);
+
+  Row& next() {
+    if (used_ == kRows) {
+      flush();
+    }
+    return rows_[used_++];
   }
+  void count(double w, double we2, std::size_t n) {
+    sums_.weight += w;
+    sums_.squared_error += we2;
+    sums_.count += n;
+  }
+
+  NormalEquations& sums_;
+  std::array<Row, kRows> rows_;
+  std::size_t used_ = 0;
 };
 
 }  // namespace rilo

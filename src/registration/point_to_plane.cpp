@@ -11,9 +11,12 @@ namespace rilo {
 
 namespace {
 
+// A point whose match reads the map is announced so many points ahead.
+constexpr std::size_t kPrefetchAhead = 8;
+
 /// Derivative of the distance of a point from a plane with respect to the pose: [(q × n)ᵀ nᵀ], `q` from the sensor to
 /// the point.
-Vector6d pose_jacobian(const Eigen::Vector3d& q, const Eigen::Vector3d& normal) {
+inline Vector6d pose_jacobian(const Eigen::Vector3d& q, const Eigen::Vector3d& normal) {
   Vector6d J;
   J << q.cross(normal), normal;
   return J;
@@ -22,8 +25,10 @@ Vector6d pose_jacobian(const Eigen::Vector3d& q, const Eigen::Vector3d& normal) 
 /// Weights residuals and adds them to normal equations, all at one state.
 class Equations {
  public:
-  Equations(const TimedCloud& source, const MotionState& state, double sigma_th_m, const AdaptiveIcpConfig& config)
-      : source_(source),
+  Equations(const TimedCloud& source, const MotionState& state, double sigma_th_m, const AdaptiveIcpConfig& config,
+            NormalEquations& sums)
+      : block_(sums),
+        source_(source),
         state_(state),
         origin_(state.T_odom_lidar.translation()),
         refine_(source.timed() && config.refine_motion),
@@ -37,12 +42,7 @@ class Equations {
              double weight) {
     const double beta = weight * weight_of(distance_m, 1.0);
     if (beta > 0.0) {
-      const Vector6d J = pose_jacobian(world - origin_, normal);
-      if (refine_) {
-        sums.add(J, distance_m, beta, lever_s(i));
-      } else {
-        sums.add(J, distance_m, beta);
-      }
+      block_.add(pose_jacobian(world - origin_, normal), distance_m, beta, lever_s(i));
     }
     return beta;
   }
@@ -56,11 +56,11 @@ class Equations {
       beta[axis] = scatter.weight * weight_of(e[axis], share);
     }
     const Eigen::Matrix3d weighted = scatter.axes * beta.asDiagonal();
-    sums.add(world - origin_, weighted * scatter.axes.transpose(), weighted * e, beta.sum(), beta.dot(e.cwiseAbs2()),
-             static_cast<std::size_t>((beta.array() > 0.0).count()), refine_ ? lever_s(i) : 0.0);
+    block_.add(world - origin_, weighted * scatter.axes.transpose(), weighted * e, beta.sum(), beta.dot(e.cwiseAbs2()),
+               static_cast<std::size_t>((beta.array() > 0.0).count()), lever_s(i));
   }
 
-  NormalEquations sums;
+  void finish() { block_.flush(); }
 
  private:
   /// `share`: of the squared distance that counts, because the surface scatters along that direction.
@@ -69,8 +69,12 @@ class Equations {
     return e2 > gate2_ ? 0.0 : share * (adaptive_ ? sigma2_ / (sigma2_ + e2) : 1.0);
   }
 
-  double lever_s(std::size_t i) const { return state_.velocity_lever_s(static_cast<double>(source_.offsets_s[i])); }
+  /// 0 leaves the velocity out.
+  double lever_s(std::size_t i) const {
+    return refine_ ? state_.velocity_lever_s(static_cast<double>(source_.offsets_s[i])) : 0.0;
+  }
 
+  ResidualBlock block_;
   const TimedCloud& source_;
   const MotionState& state_;
   Eigen::Vector3d origin_;
@@ -88,20 +92,25 @@ void PlaneMatches::look_up(const LocalMap& map, std::size_t first, std::span<con
   std::array<std::size_t, kChunkSize> moved{};
   std::size_t count = 0;
   for (std::size_t k = 0; k < world.size(); ++k) {
-    Match& match = matches_[(first + k) * stride];
+    const std::size_t i = (first + k) * stride;
+    Match& match = matches_[i];
     const VoxelIndex voxel = map.finest_voxel(world[k]);
-    if (!match.looked_up || (!frozen_ && match.voxel != voxel)) {
-      match = Match{};
-      match.looked_up = true;
+    if (match.meets == Meets::kUnknown || (!frozen_ && match.voxel != voxel)) {
+      match.meets = Meets::kNothing;
       match.voxel = voxel;
+      if (i % kSparseStride == 0) {
+        wider_[i / kSparseStride].known = false;
+      }
       moved[count++] = k;
     }
   }
   map.visit<LocalMap::Wanted::kPlanesAndScatter>(
       0, count, [&](std::size_t j) { return world[moved[j]]; },
       [&](std::size_t j, const Eigen::Vector3d&, const PlaneSpot& spot) {
-        Match& match = matches_[(first + moved[j]) * stride];
-        match.spot = spot;
+        const std::size_t i = (first + moved[j]) * stride;
+        Match& match = matches_[i];
+        spots_[i] = spot;
+        match.meets = spot.scatter ? Meets::kScatter : Meets::kPlane;
         if (!spot.scatter) {
           const MapPlane plane = spot.grid->plane_at(spot);
           match.normal = plane.normal.cast<float>();  // as the map keeps it
@@ -111,25 +120,31 @@ void PlaneMatches::look_up(const LocalMap& map, std::size_t first, std::span<con
       });
 }
 
-const Eigen::Vector3f& PlaneMatches::wider_normal(const LocalMap& map, Match& match) {
-  if (!match.looked_wider) {
-    match.looked_wider = true;
-    PlaneSpot wider;
-    match.wider_normal = match.normal;
-    if (map.find_wider(match.spot, wider)) {
-      const Eigen::Vector3f normal = wider.grid->plane_at(wider).normal.cast<float>();
-      match.wider_normal = normal.dot(match.normal) < 0.0F ? Eigen::Vector3f(-normal) : normal;
+const Eigen::Vector3f& PlaneMatches::wider_normal(const LocalMap& map, std::size_t i) {
+  WiderNormal& wider = wider_[i / kSparseStride];
+  if (!wider.known) {
+    wider.known = true;
+    wider.normal = matches_[i].normal;
+    PlaneSpot spot;
+    if (map.find_wider(spots_[i], spot)) {
+      const Eigen::Vector3f normal = spot.grid->plane_at(spot).normal.cast<float>();
+      wider.normal = normal.dot(matches_[i].normal) < 0.0F ? Eigen::Vector3f(-normal) : normal;
     }
   }
-  return match.wider_normal;
+  return wider.normal;
 }
 
 NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state,
                                         double sigma_th_m, const AdaptiveIcpConfig& config, std::size_t stride) {
   const Eigen::Matrix3d R = state.T_odom_lidar.linear();
   const Eigen::Vector3d t = state.T_odom_lidar.translation();
-  const SweepMotion motion = SweepMotion::during(source, state.motion());
-  matches_.resize(source.size());
+  if (!span_) {
+    span_ = SweepSpan::of(source);
+    matches_.resize(source.size());
+    spots_.resize(source.size());
+    wider_.resize(source.size() / kSparseStride + 1);
+  }
+  const SweepMotion motion(state.motion(), *span_);
   const std::size_t count = (source.size() + stride - 1) / stride;
   std::vector<NormalEquations> partial(chunk_count(count));
   std::vector<Matrix6d> unconfirmed(chunk_count(count), Matrix6d::Zero());
@@ -139,25 +154,28 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
       world[k - first] = R * motion.compensated(source, k * stride).cast<double>() + t;
     }
     look_up(map, first, {world.data(), last - first}, stride);
-    Equations equations(source, state, sigma_th_m, config);
+    Equations equations(source, state, sigma_th_m, config, partial[chunk]);
     for (std::size_t k = first; k < last; ++k) {
       const std::size_t i = k * stride;
       const Match& match = matches_[i];
       const Eigen::Vector3d& p = world[k - first];
-      if (match.spot.scatter) {
-        equations.add(i, p, match.spot.grid->scatter_at(match.spot));
-      } else if (match.spot.grid != nullptr) {
+      if (k + kPrefetchAhead < last) {
+        prefetch(i + kPrefetchAhead * stride);
+      }
+      if (match.meets == Meets::kScatter) {
+        equations.add(i, p, spots_[i].grid->scatter_at(spots_[i]));
+      } else if (match.meets == Meets::kPlane) {
         const Eigen::Vector3d normal = match.normal.cast<double>();
         const double distance_m = normal.dot(p) - match.distance_m;  // (p − q)·n
         const double beta = equations.add(i, p, normal, distance_m, static_cast<double>(match.weight));
         if (k % kSparseStride == 0 && beta > 0.0) {
           const Vector6d J = pose_jacobian(p - t, normal);
-          const Vector6d error = J - pose_jacobian(p - t, wider_normal(map, matches_[i]).cast<double>());
+          const Vector6d error = J - pose_jacobian(p - t, wider_normal(map, i).cast<double>());
           unconfirmed[chunk] += 0.5 * beta * (J * error.transpose() + error * J.transpose());
         }
       }
     }
-    partial[chunk] = equations.sums;
+    equations.finish();
   });
   unconfirmed_.setZero();
   NormalEquations total;

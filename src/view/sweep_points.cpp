@@ -56,8 +56,8 @@ SweepPoints sample_sweep(const ViewSweep& view, std::size_t max_points, double m
   const float middle = 0.5F * (*first + *last);
   for (float& t : out.times_s) t -= middle;
   const SweepMotion motion({view.result.twist, view.result.acceleration},
-                           out.times_s[static_cast<std::size_t>(first - out.times_s.begin())],
-                           out.times_s[static_cast<std::size_t>(last - out.times_s.begin())]);
+                           {out.times_s[static_cast<std::size_t>(first - out.times_s.begin())],
+                            out.times_s[static_cast<std::size_t>(last - out.times_s.begin())]});
   for (std::size_t i = 0; i < out.points.size(); ++i) out.points[i] = motion.compensate(out.points[i], out.times_s[i]);
   return out;
 }

@@ -124,7 +124,7 @@ TEST(DeskewTest, TheSpanIsThatOfAllInstantsWhereverTheEndsLie) {
 TEST(DeskewTest, InstantsOutsideTheTableUseItsEnds) {
   Vector6d twist;
   twist << 0.0, 0.0, 0.5, 10.0, 0.0, 0.0;
-  const SweepMotion motion({twist}, -0.05F, 0.05F);
+  const SweepMotion motion({twist}, {-0.05F, 0.05F});
   const Eigen::Vector3f p(20.0F, 3.0F, 1.0F);
   for (const float offset : {-0.06F, 0.06F}) {
     const SE3 T = se3_exp(twist * static_cast<double>(offset));

@@ -156,11 +156,15 @@ TEST(PointToPlaneJacobian, DirectionsOfOnePointTogether) {
   Vector6d J2;
   J1 << q.cross(d1), d1;
   J2 << q.cross(d2), d2;
-  singly.add(J1, e1, w1, offset_s);
-  singly.add(J2, e2, w2, offset_s);
+  ResidualBlock one_by_one(singly);
+  one_by_one.add(J1, e1, w1, offset_s);
+  one_by_one.add(J2, e2, w2, offset_s);
+  one_by_one.flush();
   NormalEquations together;
-  together.add(q, w1 * d1 * d1.transpose() + w2 * d2 * d2.transpose(), w1 * e1 * d1 + w2 * e2 * d2, w1 + w2,
-               w1 * e1 * e1 + w2 * e2 * e2, 2, offset_s);
+  ResidualBlock at_once(together);
+  at_once.add(q, w1 * d1 * d1.transpose() + w2 * d2 * d2.transpose(), w1 * e1 * d1 + w2 * e2 * d2, w1 + w2,
+              w1 * e1 * e1 + w2 * e2 * e2, 2, offset_s);
+  at_once.flush();
   EXPECT_TRUE(together.hessian().isApprox(singly.hessian(), 1e-12));
   EXPECT_TRUE(together.gradient().isApprox(singly.gradient(), 1e-12));
   EXPECT_DOUBLE_EQ(together.weight, singly.weight);
@@ -208,10 +212,30 @@ TEST(PointToPlaneJacobian, AStrideLooksAtEveryNthPoint) {
   EXPECT_LT((strided.gradient() - picked.gradient()).norm(), 1e-4 * picked.gradient().norm());
 }
 
+TEST(NormalEquationsSum, BlocksOfAnyLengthAddUpAsOneByOne) {
+  NormalEquations singly;
+  NormalEquations together;
+  ResidualBlock block(together);
+  for (int i = 0; i < 100; ++i) {
+    const Vector6d J = twist(1, 0.1 * i, 3, -4, 5, 0.2 * i);
+    const double s = 0.001 * (i - 50);
+    ResidualBlock one(singly);
+    one.add(J, 0.01 * i, 0.5, s);
+    one.flush();
+    block.add(J, 0.01 * i, 0.5, s);
+  }
+  block.flush();
+  EXPECT_EQ(together.hessian(), singly.hessian());
+  EXPECT_EQ(together.gradient(), singly.gradient());
+  EXPECT_EQ(together.count, 100U);
+}
+
 TEST(NormalEquationsSum, AddsBlockByBlock) {
   const Vector6d J = twist(1, 2, 3, 4, 5, 6);
   NormalEquations a;
-  a.add(J, 0.5, 2.0, 0.1);
+  ResidualBlock block(a);
+  block.add(J, 0.5, 2.0, 0.1);
+  block.flush();
   NormalEquations b;
   b.add(J, -1.0, 1.0);
   a += b;

@@ -112,7 +112,7 @@ TEST(DeskewTest, TheSpanIsThatOfAllInstantsWhereverTheEndsLie) {
       cloud.offsets_s[k] = -0.05F;
       cloud.offsets_s[(k + 5) % count] = 0.04F;
       const auto [begin, end] = std::minmax_element(cloud.offsets_s.begin(), cloud.offsets_s.end());
-      const SweepMotion expected(motion, *begin, *end);
+      const SweepMotion expected(motion, {*begin, *end});
       const SweepMotion during = SweepMotion::during(cloud, motion);
       for (std::size_t i = 0; i < count; ++i) {
         ASSERT_EQ(during.compensated(cloud, i), expected.compensated(cloud, i)) << count << ' ' << k;

@@ -47,31 +47,38 @@ Vector12d NormalEquations::gradient() const {
 }
 
 void ResidualBlock::flush() {
-  sum(rows_.data(), used_, sums_);
+  sum(rows_.data(), used_, velocity_, sums_);
   used_ = 0;
 }
 
 // Each element is summed over the rows in their order, whatever the width of a register.
-RILO_WIDE void ResidualBlock::sum(const Row* rows, std::size_t n, NormalEquations& sums) {
+RILO_WIDE void ResidualBlock::sum(const Row* rows, std::size_t n, bool velocity, NormalEquations& sums) {
   using Lanes = double __attribute__((vector_size(4 * sizeof(double))));
-  constexpr std::size_t kLanes = sizeof(Lanes) / sizeof(double);
+  constexpr Eigen::Index kLanes = sizeof(Lanes) / sizeof(double);
   static_assert(PackedSymmetric6::SizeAtCompileTime % kLanes == 0);
-  for (std::size_t first = 0; first < PackedSymmetric6::SizeAtCompileTime; first += kLanes) {
+  for (Eigen::Index first = 0; first < PackedSymmetric6::SizeAtCompileTime; first += kLanes) {
     Lanes h0;
+    std::memcpy(&h0, &sums.H0[first], sizeof(Lanes));
+    for (std::size_t k = 0; k < n; ++k) {
+      Lanes h;
+      std::memcpy(&h, &rows[k].h[first], sizeof(Lanes));
+      h0 += h;
+    }
+    std::memcpy(&sums.H0[first], &h0, sizeof(Lanes));
+    if (!velocity) {
+      continue;
+    }
     Lanes h1;
     Lanes h2;
-    std::memcpy(&h0, &sums.H0[first], sizeof(Lanes));
     std::memcpy(&h1, &sums.H1[first], sizeof(Lanes));
     std::memcpy(&h2, &sums.H2[first], sizeof(Lanes));
     for (std::size_t k = 0; k < n; ++k) {
       const double s = rows[k].s;
       Lanes h;
       std::memcpy(&h, &rows[k].h[first], sizeof(Lanes));
-      h0 += h;
       h1 += s * h;
       h2 += s * s * h;
     }
-    std::memcpy(&sums.H0[first], &h0, sizeof(Lanes));
     std::memcpy(&sums.H1[first], &h1, sizeof(Lanes));
     std::memcpy(&sums.H2[first], &h2, sizeof(Lanes));
   }

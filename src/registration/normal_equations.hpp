@@ -84,7 +84,8 @@ struct NormalEquations {
 /// Adds residuals to normal equations a block at a time: their sums then stay in registers.
 class ResidualBlock {
  public:
-  explicit ResidualBlock(NormalEquations& sums) : sums_(sums) {}
+  /// `velocity`: false where all s are 0.
+  explicit ResidualBlock(NormalEquations& sums, bool velocity = true) : sums_(sums), velocity_(velocity) {}
 
   void add(const Vector6d& J, double e, double w, double s) {
     Row& row = next();
@@ -118,7 +119,7 @@ class ResidualBlock {
     double s = 0;
   };
   static constexpr std::size_t kRows = 32;  // 8 kB: they stay in the nearest cache
-  static void sum(const Row* rows, std::size_t n, NormalEquations& sums);
+  static void sum(const Row* rows, std::size_t n, bool velocity, NormalEquations& sums);
 
   Row& next() {
     if (used_ == kRows) {
@@ -133,6 +134,7 @@ class ResidualBlock {
   }
 
   NormalEquations& sums_;
+  bool velocity_;
   std::array<Row, kRows> rows_;
   std::size_t used_ = 0;
 };

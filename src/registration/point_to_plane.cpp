@@ -27,7 +27,7 @@ class Equations {
  public:
   Equations(const TimedCloud& source, const MotionState& state, double sigma_th_m, const AdaptiveIcpConfig& config,
             NormalEquations& sums)
-      : block_(sums),
+      : block_(sums, source.timed() && config.refine_motion),
         source_(source),
         state_(state),
         origin_(state.T_odom_lidar.translation()),

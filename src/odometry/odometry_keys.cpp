@@ -132,11 +132,9 @@ void add_icp(KeyVisitor& keys, AdaptiveIcpConfig& c) {
                c.coarse_stride, 1, 100);
   keys.real({"damping", "", "lambda, relative to the largest diagonal element", "III-D, without a value; not tuned"},
             c.damping, 0, 1000);
-  keys.real(
-      {"rotation_epsilon_rad", "rad", "converged when an update rotates less ...", "III-D, without a value; not tuned"},
-      c.rotation_epsilon_rad, 0, 1);
-  keys.real({"translation_epsilon_m", "m", "... and moves less", "III-D, without a value; not tuned"},
-            c.translation_epsilon_m, 0, 1);
+  keys.real({"epsilon", "", "converged when an update is smaller, in standard deviations of pose and velocity",
+             "experiment: convergence in standard deviations"},
+            c.epsilon, 0, 10);
   keys.boolean({"refine_motion", "", "estimate the velocity during the sweep together with the pose",
                 "docs/method.md, velocity in the state"},
                c.refine_motion);

@@ -18,7 +18,7 @@ constexpr double kUnconfirmedMargin = 4.0 / 3.0;
 // stay where it is.
 constexpr double kWideStart = 3.0;
 // The strided cloud need not converge as far as the whole one: what is left is below the noise of its sample.
-constexpr double kCoarseTolerance = 10.0;
+constexpr double kCoarseTolerance = 4.0;
 // From this iteration on, which 95 % of the sweeps of a drive do not need, points keep their correspondences: a few
 // that change planes at every step would keep the sweep oscillating.
 constexpr int kFreezeAfter = 16;
@@ -134,9 +134,9 @@ IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const Moti
     }
     result.state = perturbed(result.state, acceleration.moved(delta, result.posterior_information));
     result.last_update = delta.head<6>();
-    const double tolerance = stride > 1 ? kCoarseTolerance : 1.0;
-    const bool small = delta.head<3>().norm() < tolerance * config.rotation_epsilon_rad &&
-                       delta.segment<3>(3).norm() < tolerance * config.translation_epsilon_m;
+    // In standard deviations of the state, so that it means the same for all sensors and places.
+    const double epsilon = (stride > 1 ? kCoarseTolerance : 1.0) * config.epsilon;
+    const bool small = delta.dot(result.posterior_information * delta) < epsilon * epsilon;
     if (small && stride == 1) {
       result.termination = IcpTermination::kConverged;
       break;

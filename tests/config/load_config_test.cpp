@@ -79,7 +79,7 @@ TEST(LoadConfig, a_dump_loads_as_exactly_the_same_numbers) {
   config.icp.gate = std::nextafter(3.0, 4.0);
   config.map.voxel_m = 0.1 + 0.2;
   config.preprocess.max_range_m = 1000.0 / 7;
-  config.icp.rotation_epsilon_rad = 5e-324;
+  config.icp.epsilon = 5e-324;
   config.threads = 1024;
   config.initial_pose.rule = InitialPoseRule::kFixedTau;
   config.coarse.always = true;
@@ -89,7 +89,7 @@ TEST(LoadConfig, a_dump_loads_as_exactly_the_same_numbers) {
   EXPECT_EQ(back.icp.gate, config.icp.gate);
   EXPECT_EQ(back.map.voxel_m, config.map.voxel_m);
   EXPECT_EQ(back.preprocess.max_range_m, config.preprocess.max_range_m);
-  EXPECT_EQ(back.icp.rotation_epsilon_rad, config.icp.rotation_epsilon_rad);
+  EXPECT_EQ(back.icp.epsilon, config.icp.epsilon);
   EXPECT_EQ(back.threads, 1024);
   EXPECT_EQ(back.initial_pose.rule, InitialPoseRule::kFixedTau);
   EXPECT_TRUE(back.coarse.always);

@@ -20,8 +20,7 @@ class ExactRoom : public ::testing::TestWithParam<Vector6d> {
 AdaptiveIcpConfig precise() {
   AdaptiveIcpConfig config;
   config.max_iterations = 100;
-  config.rotation_epsilon_rad = 1e-8;
-  config.translation_epsilon_m = 1e-7;
+  config.epsilon = 1e-4;
   return config;
 }
 

@@ -41,7 +41,7 @@ struct AdaptiveIcpConfig {
   int max_iterations = 24;
   int coarse_stride = 4;          ///< every n-th point until it converges, then all points
   double damping = 1e-9;          ///< λ, relative to the largest diagonal element
-  double epsilon = 0.2;           ///< converged when an update is smaller, in standard deviations of pose and velocity
+  double epsilon = 0.1;           ///< converged when an update is smaller, in standard deviations of pose and velocity
   bool refine_motion = true;      ///< estimate the velocity during the sweep together with the pose
   double noise_m = 0.02;          ///< least standard deviation of a residual
   double scatter_noise_m = 0.01;  ///< σ of the weight σ² / (σ² + variance) of points that meet no plane

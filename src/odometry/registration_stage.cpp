@@ -23,6 +23,9 @@ constexpr double kSecondStepM = 1.25;
 constexpr double kSecondSpeed = 37.5;     // m/s, 135 km/h: so far do the starts reach, ...
 constexpr double kSecondReachM = 40.0;    // ... but not where two sweeps share too little
 constexpr std::size_t kSecondStarts = 2;  // of which so many are tried with all points
+// Where the velocity is not known, the state may be uncertain by metres along a road. A search then stops at this share
+// of the usual bound of convergence, or it would stop on the way.
+constexpr double kSearchEpsilon = 0.1;
 
 TimedCloud every(const TimedCloud& cloud, std::size_t stride) {
   TimedCloud sample;
@@ -60,6 +63,13 @@ bool same_optimum(const Registration& a, const Registration& b) {
 }
 }  // namespace
 
+RegistrationStage::RegistrationStage(const Parts& parts)
+    : parts_(parts),
+      search_end_(parts.tracker.lost() ? parts.deadline.after(kSearchShare) : parts.deadline),
+      searching_(parts.config.icp) {
+  searching_.epsilon *= kSearchEpsilon;
+}
+
 Registration RegistrationStage::run(const MotionState& predicted, const InitialPose& init) const {
   MotionState initial = predicted;
   std::optional<MotionState> refuted;
@@ -68,7 +78,8 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
     initial = {init.T_odom_lidar, parts_.tracker.implied_twist(init.T_odom_lidar)};
     refuted = initial;
   }
-  Registration found = from(initial, parts_.tracker.prior(refuted), kFirstSweepRounds);
+  Registration found =
+      from(initial, parts_.tracker.prior(refuted), kFirstSweepRounds, refuted ? searching_ : parts_.config.icp);
   if (parts_.map.sweeps() == 1) {
     found.cut = search_end_.passed_after(parts_.first_map_ms);
     if (!found.cut) {
@@ -84,8 +95,8 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
   }
   if (parts_.tracker.lost() && parts_.map.sweeps() > 1) {
     // What was found within a wide gate has to hold within the usual one.
-    Registration held =
-        to_map(found.icp.state, parts_.tracker.prior(found.icp.state), parts_.usual_sigma_th_m, parts_.deadline);
+    Registration held = to_map(found.icp.state, parts_.tracker.prior(found.icp.state), parts_.usual_sigma_th_m,
+                               searching_, parts_.deadline);
     held.T_init = found.T_init;
     held.starts = found.starts;
     held.cut = found.cut;
@@ -95,16 +106,16 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
 }
 
 /// A second sweep in so many rounds.
-Registration RegistrationStage::from(const MotionState& start, const MotionPrior& prior, int rounds) const {
+Registration RegistrationStage::from(const MotionState& start, const MotionPrior& prior, int rounds,
+                                     const AdaptiveIcpConfig& icp) const {
   return parts_.map.sweeps() == 1 ? second_sweep(start, prior, rounds)
-                                  : to_map(start, prior, parts_.sigma_th_m, search_end_);
+                                  : to_map(start, prior, parts_.sigma_th_m, icp, search_end_);
 }
 
 Registration RegistrationStage::to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m,
-                                       const Deadline& deadline) const {
+                                       const AdaptiveIcpConfig& icp, const Deadline& deadline) const {
   Registration found;
-  found.icp =
-      adaptive_icp(parts_.prepared.source, parts_.map.map(), start, prior, sigma_th_m, parts_.config.icp, deadline);
+  found.icp = adaptive_icp(parts_.prepared.source, parts_.map.map(), start, prior, sigma_th_m, icp, deadline);
   found.T_init = start.T_odom_lidar;
   found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, parts_.map.map());
   return found;
@@ -129,7 +140,7 @@ void RegistrationStage::try_all(const std::vector<MotionState>& starts, int roun
 /// Registers from another start and keeps what ends elsewhere and fits clearly better, or settles where `found` did
 /// not.
 void RegistrationStage::try_from(const MotionState& start, int rounds, Registration& found) const {
-  Registration other = from(start, parts_.tracker.prior(start), rounds);
+  Registration other = from(start, parts_.tracker.prior(start), rounds, searching_);
   const double margin = 1.0 + parts_.config.initial_pose.margin;
   const bool settles = settles_better(other, found) && quality(other) > quality(found);
   if (settles || (!same_optimum(other, found) && quality(other) > margin * quality(found))) {
@@ -190,8 +201,8 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
 RegistrationStage::SampleFit RegistrationStage::fit_of(const TimedCloud& sample, const MotionState& start,
                                                        const LocalMap& map) const {
   Registration fit;
-  fit.icp = adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, parts_.config.icp,
-                         parts_.deadline);
+  fit.icp =
+      adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, searching_, parts_.deadline);
   std::vector<Eigen::Vector3f> points;
   deskew(sample, fit.icp.state.motion(), points);
   fit.score = map_score(points, map, fit.icp.state.T_odom_lidar, parts_.config.initial_pose.score_sigma_m);
@@ -218,7 +229,7 @@ Vector6d RegistrationStage::twist_of_first(const IcpResult& second, double sigma
                                            parts_.pose_by_elevation);
   const MotionState start{parts_.tracker.trusted().T_odom_lidar, second.state.twist};
   const IcpResult first = adaptive_icp(parts_.map.first_cloud(), map, start, parts_.tracker.prior_before(second),
-                                       sigma_m, parts_.config.icp, deadline);
+                                       sigma_m, searching_, deadline);
   return (first.converged() ? first : second).state.twist;
 }
 
@@ -245,7 +256,7 @@ Registration RegistrationStage::second_sweep(const MotionState& start, const Mot
     found.first = FirstSweep{of_first_sweep(twist), twist};
     const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
     found.icp = adaptive_icp(parts_.prepared.source, or_present(found.first->map), found.icp.state, prior, sigma_m,
-                             parts_.config.icp, round_end);
+                             searching_, round_end);
     iterations += found.icp.iterations;
   }
   found.icp.iterations = iterations;

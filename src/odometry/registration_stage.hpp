@@ -47,15 +47,14 @@ class RegistrationStage {
     Deadline deadline = {};   ///< of the registration
     double first_map_ms = 0;  ///< how long it takes to put the first sweep into a map, and this one
   };
-  explicit RegistrationStage(const Parts& parts)
-      : parts_(parts), search_end_(parts.tracker.lost() ? parts.deadline.after(kSearchShare) : parts.deadline) {}
+  explicit RegistrationStage(const Parts& parts);
 
   Registration run(const MotionState& predicted, const InitialPose& init) const;
 
  private:
-  Registration from(const MotionState& start, const MotionPrior& prior, int rounds) const;
+  Registration from(const MotionState& start, const MotionPrior& prior, int rounds, const AdaptiveIcpConfig& icp) const;
   Registration to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m,
-                      const Deadline& deadline) const;
+                      const AdaptiveIcpConfig& icp, const Deadline& deadline) const;
   Registration second_sweep(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
   std::optional<LocalMap> of_first_sweep(const Vector6d& twist) const;
   Vector6d twist_of_first(const IcpResult& second, double sigma_m, const Deadline& deadline) const;
@@ -76,6 +75,7 @@ class RegistrationStage {
 
   Parts parts_;
   Deadline search_end_;
+  AdaptiveIcpConfig searching_;  // where no velocity is known
 };
 
 }  // namespace rilo

@@ -41,11 +41,11 @@ class RegistrationStage {
     const SweepMap& map;
     InitialPoseStage& initial_pose;
     const PoseDerivative& pose_by_elevation;
-    double sigma_th_m;
-    double usual_sigma_th_m;  ///< the same without the growth after failures
-    double period_s;          ///< usual time between sweeps
-    Deadline deadline = {};   ///< of the registration
-    double first_map_ms = 0;  ///< how long it takes to put the first sweep into a map, and this one
+    double sigma_th_m = 0;
+    double usual_sigma_th_m = 0;  ///< the same without the growth after failures
+    double period_s = 0;          ///< usual time between sweeps
+    Deadline deadline = {};       ///< of the registration
+    double first_map_ms = 0;      ///< how long it takes to put the first sweep into a map, and this one
   };
   explicit RegistrationStage(const Parts& parts);
 

@@ -236,6 +236,7 @@ void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& state
     map_.begin(cloud, state, prepared.scene_range_m, calibration_.pose_by_elevation());
   });
   tracker_.begin(state);
+  threshold_.reset();
   initial_pose_.begin(prepared.source, state, map_.map());
 }
 

@@ -6,14 +6,14 @@ namespace rilo {
 
 namespace {
 constexpr double kYoungShare = 0.5;  // of the usual score, that a map of a few sweeps reaches
+}  // namespace
 
 bool is_degenerate(const IcpResult& icp, const HealthConfig& config) {
   return icp.degeneracy.relative_eigenvalues[0] < config.degenerate_ratio;
 }
-}  // namespace
 
 bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
-  if (icp.termination == IcpTermination::kSingular || evidence.shrunk || evidence.cut_off) {
+  if (icp.termination == IcpTermination::kSingular || evidence.shrunk || evidence.cut_off || evidence.ambiguous) {
     return false;
   }
   if (!icp.converged() && icp.frozen) {

@@ -17,8 +17,12 @@ struct Evidence {
   bool shrunk = false;          ///< the place is much smaller than one sweep before: something covers the sensor
   bool cut_off = false;         ///< the registration ran out of time far from its end
   bool possible_motion = true;  ///< a sensor can have moved to the pose
+  bool ambiguous = false;       ///< it may as well lie elsewhere
   bool second_sweep = false;    ///< of the map: there is no usual score to judge it by
 };
+
+/// Whether the sweep says too little in one direction.
+bool is_degenerate(const IcpResult& icp, const HealthConfig& config);
 
 /// Status of a registered sweep.
 OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);

@@ -22,11 +22,7 @@ constexpr std::size_t kSearchStarts = 4;  // the cost of each is one registratio
 // A cloud compensated for a slightly wrong velocity serves as a target: at either end of a sweep of 0.1 s it is off by
 // less than good poses are.
 constexpr double kHalfSweepS = 0.05;
-// A sweep whose score over its residuals is below this share of the usual ratio may have been taken at another time
-// than its stamp: this many periods earlier or later.
-constexpr double kSuspicious = 0.8;
-constexpr double kPeriods = 8.0;
-constexpr double kMostPathSteps = 100.0;
+constexpr double kSuspicious = 0.75;  // of the usual quality
 }  // namespace
 
 InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse,
@@ -141,39 +137,7 @@ bool InitialPoseStage::is_consistent(double score) const {
   return usual_score_ > 0.0 && score >= config_.alarm * usual_score_;
 }
 
-bool InitialPoseStage::suspicious(double score, double residual_rms_m) const {
-  return usual_rms_m_ > 0.0 && score * usual_rms_m_ < kSuspicious * usual_score_ * residual_rms_m;
-}
-
-std::vector<SE3> InitialPoseStage::places_on_path(const TimedCloud& source, const MotionState& predicted, double dt_s,
-                                                  const LocalMap& map) {
-  const Vector6d period = dt_s * predicted.twist;
-  const double steps_a_period =
-      std::ceil(std::max(period.tail<3>().norm() / kSearchStepM, period.head<3>().norm() / kSearchStepRad));
-  const double steps = std::clamp(2.0 * kPeriods * steps_a_period, 1.0, kMostPathSteps);
-  deskew(source, {predicted.twist}, compensated_);
-  const auto points = evenly_picked(compensated_, static_cast<std::size_t>(config_.score_points));
-  std::vector<ScoredPose> path;
-  for (std::size_t k = 0; static_cast<double>(k) <= steps; ++k) {
-    const SE3 T = predicted.T_odom_lidar * se3_exp((2.0 * static_cast<double>(k) / steps - 1.0) * kPeriods * period);
-    path.push_back({T, map_score(points, map, T, kSearchSigmaM)});
-  }
-  std::vector<ScoredPose> maxima;
-  for (std::size_t k = 0; k < path.size(); ++k) {
-    const bool rises = k == 0 || path[k].score > path[k - 1].score;
-    const bool falls = k + 1 == path.size() || path[k].score >= path[k + 1].score;
-    if (rises && falls) {
-      maxima.push_back(path[k]);
-    }
-  }
-  std::stable_sort(maxima.begin(), maxima.end(),
-                   [](const ScoredPose& a, const ScoredPose& b) { return a.score > b.score; });
-  std::vector<SE3> places;
-  for (std::size_t i = 0; i < std::min(maxima.size(), kSearchStarts); ++i) {
-    places.push_back(maxima[i].T_odom_lidar);
-  }
-  return places;
-}
+bool InitialPoseStage::suspicious(double quality) const { return quality < kSuspicious * usual_quality_; }
 
 std::vector<SE3> InitialPoseStage::restarts(const SE3& centre, const LocalMap& map, const Deadline& deadline) const {
   const PoseGrid grid{config_.search_shift_m, kSearchStepM, config_.search_yaw_rad, kSearchStepRad};
@@ -186,14 +150,14 @@ double InitialPoseStage::score(const TimedCloud& source, const MotionState& stat
   return map_score(points, map, state.T_odom_lidar, config_.score_sigma_m);
 }
 
-void InitialPoseStage::learn(double score, std::optional<double> residual_rms_m) {
+void InitialPoseStage::learn(double score, std::optional<double> quality) {
   const double share = is_consistent(score) ? kRunningShare : kDoubtfulShare;
   const auto follow = [share](double& usual, double value) {
     usual = usual > 0.0 ? usual + share * (value - usual) : value;
   };
   follow(usual_score_, score);
-  if (residual_rms_m) {
-    follow(usual_rms_m_, *residual_rms_m);
+  if (quality) {
+    follow(usual_quality_, *quality);
   }
 }
 
@@ -217,7 +181,7 @@ void InitialPoseStage::begin(const TimedCloud& source, const MotionState& state,
 
 void InitialPoseStage::reset() {
   usual_score_ = 0.0;
-  usual_rms_m_ = 0.0;
+  usual_quality_ = 0.0;
   own_score_ = 0.0;
   target_points_.clear();
   target_.reset();

@@ -67,19 +67,14 @@ class InitialPoseStage {
   /// Map score of a registered sweep; the cloud becomes the next target.
   double score(const TimedCloud& source, const MotionState& state, const LocalMap& map);
 
-  /// Whether a registered sweep with that score and residuals fits so much worse than usual that it may have been taken
-  /// at another time than its stamp.
-  bool suspicious(double score, double residual_rms_m) const;
-
-  /// Where on the path of `predicted` a sweep may have been taken, the best places first (at most three): the maxima of
-  /// its score on `map` from eight periods `dt_s` back to twelve on.
-  std::vector<SE3> places_on_path(const TimedCloud& source, const MotionState& predicted, double dt_s,
-                                  const LocalMap& map);
+  /// Whether a registered sweep fits so much worse than usual that it may have been taken at another time than its
+  /// stamp; see Registration::quality.
+  bool suspicious(double quality) const;
 
   /// Updates the usual score: slowly with a score that raises the alarm. A pose that slides away slowly
-  /// must not take the reference along, and a place with less structure must become usual in time. Residuals within the
-  /// wide gate of a map's first sweeps are not comparable with later ones: none.
-  void learn(double score, std::optional<double> residual_rms_m);
+  /// must not take the reference along, and a place with less structure must become usual in time. The
+  /// quality within the wide gate of a map's first sweeps is not comparable with later ones: none.
+  void learn(double score, std::optional<double> quality);
 
   /// A map begins with a sweep: its cloud becomes the target, its score the least that is expected.
   void begin(const TimedCloud& source, const MotionState& state, const LocalMap& map);
@@ -126,8 +121,8 @@ class InitialPoseStage {
   bool restarts_due_ = false;  // the search of the last sweep found nothing and had no time for them
   Vector6d moving_twist_ = Vector6d::Zero();
   double usual_score_ = 0;
-  double usual_rms_m_ = 0;  // of the residuals of registered sweeps
-  double own_score_ = 0;    // of the first sweep on the map of itself: what a sweep at the right place can reach
+  double usual_quality_ = 0;
+  double own_score_ = 0;  // of the first sweep on the map of itself: what a sweep at the right place can reach
 };
 
 }  // namespace rilo

@@ -36,6 +36,8 @@ class MotionTracker {
   double since_trusted_s() const { return seconds_since(past_.empty() ? 0 : past_.back().stamp_ns); }
   /// Whether the sweep before could not be registered.
   bool lost() const { return lost_; }
+  /// The last sweep that was accepted said too little in one direction.
+  bool degenerate() const { return degenerate_; }
 
   /// T_pred (III-B) from the trusted poses, and the velocity.
   MotionState predicted(double sigma_th_m) const;

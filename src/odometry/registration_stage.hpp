@@ -26,8 +26,12 @@ struct Registration {
   SE3 T_init = SE3::Identity();     ///< initial pose of the registration that was kept
   std::optional<FirstSweep> first;  ///< second sweep of a map
   double score = 0;                 ///< map score at the registered pose
-  int starts = 1;                   ///< how many it was chosen from
-  bool cut = false;                 ///< no time for further ones
+  /// Score times share of points that are matched over their residuals (1/m), to be compared within the same gate.
+  double quality = 0;
+  double rival_quality = 0;  ///< second sweep: the best that settled elsewhere
+  bool ambiguous = false;    ///< it may as well lie elsewhere
+  int starts = 1;            ///< how many it was chosen from
+  bool cut = false;          ///< no time for further ones
 };
 
 /// Registers one sweep; refers to the state of the odometry, which outlives it.
@@ -61,13 +65,17 @@ class RegistrationStage {
   const LocalMap& or_present(const std::optional<LocalMap>& compensated) const;
   void try_from(const MotionState& start, int rounds, Registration& found) const;
   void try_all(const std::vector<MotionState>& starts, int rounds, Registration& found) const;
-  std::vector<MotionState> starts_on_path(const MotionState& predicted) const;
-  /// Where a sample of the second sweep comes to rest from a start, and how well it fits there.
+  void rate(Registration& found, const LocalMap& map) const;
+  /// Where a sample of the sweep comes to rest from a start, and how well it fits there.
   struct SampleFit {
-    SE3 T_odom_lidar = SE3::Identity();
+    MotionState state;
     double quality = 0;  ///< 0: not tried
   };
-  SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map) const;
+  bool newly_degenerate(const Registration& found) const;
+  void try_on_path(const MotionState& predicted, Registration& found) const;
+  std::vector<SampleFit> fits_on_path(const MotionState& predicted, const Deadline& end) const;
+  SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map,
+                   const Deadline& deadline) const;
   std::vector<MotionState> other_second_starts(const Registration& found) const;
 
   /// Of the time left; after a loss, what was found has to hold in the rest of it.

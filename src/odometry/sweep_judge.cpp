@@ -8,7 +8,6 @@ namespace rilo {
 namespace {
 constexpr int kMostBeginnings = 10;    // a robot may start where the place shows no better second sweep
 constexpr double kShrunk = 1.0 / 3.0;  // of the last median range: doors and passing lorries take less at once
-
 /// Out of time while the points still moved by more than that: each update leaves about as much as it was. (With 0.03 m
 /// hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are.)
 bool cut_off(const IcpResult& icp, double range_m) {
@@ -23,6 +22,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.source_points = prepared.source.size();
   evidence.score = registration.score;
   evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
+  evidence.ambiguous = registration.ambiguous;
   evidence.young_map = before.map_sweeps > 1 && before.map_sweeps < kEstablishedSweeps;
   evidence.usual_score = before.usual_score;
   evidence.was_lost = before.was_lost;

@@ -86,6 +86,13 @@ TEST(Judging, ASecondSweepMustConstrainAllDirections) {
   EXPECT_EQ(judge(icp, e, kHealth), OdometryStatus::kLost);
 }
 
+TEST(Judging, ASweepThatMayLieElsewhereIsLost) {
+  Evidence e = evidence(0.8);
+  e.ambiguous = true;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
+  EXPECT_FALSE(fits_map(registered(), e, kHealth));
+}
+
 TEST(Judging, ImpossibleMotionAndACoveredSensorAreLost) {
   Evidence e = evidence(0.8);
   e.possible_motion = false;

@@ -59,9 +59,9 @@ struct PointBlock {
 
 /// Where such points lie in another frame.
 struct PlaceBlock {
-  alignas(64) PointBlock::Lanes<double> x;
-  alignas(64) PointBlock::Lanes<double> y;
-  alignas(64) PointBlock::Lanes<double> z;
+  alignas(64) PointBlock::Lanes<double> x{};
+  alignas(64) PointBlock::Lanes<double> y{};
+  alignas(64) PointBlock::Lanes<double> z{};
 
   Eigen::Vector3d at(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };

@@ -65,7 +65,7 @@ void LocalMap::insert(const std::vector<Eigen::Vector3f>& points, const SE3& T_o
     PointBlock p;
     PointBlock rays;
     PointBlock jacobians;
-    PlaceBlock places{};
+    PlaceBlock places;
     for_each_block(first, last, [&](std::size_t begin, std::size_t n) {
       p.load(&points[begin], n);
       rotate(R, p, rays);

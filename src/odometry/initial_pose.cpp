@@ -12,7 +12,7 @@
 namespace rilo {
 
 namespace {
-constexpr double kDoubtfulShare = 0.02;      // of a score below the alarm in the usual one
+constexpr double kDoubtfulShare = 0.02;  // of a score below the alarm in the usual one
 // What a coarse result of the second sweep reaches of the score of the first one on its own map where it is right: 0.83
 // to 1.14. Wrong ones reach it along a road, where other starts follow.
 constexpr double kOwnShare = 0.8;

@@ -237,7 +237,7 @@ void RegistrationStage::try_on_path(const MotionState& predicted, Registration& 
 
 /// A sample of the sweep, registered from where the sensor was or will be some periods earlier and later.
 std::vector<RegistrationStage::SampleFit> RegistrationStage::fits_on_path(const MotionState& predicted,
-                                                                           const Deadline& end) const {
+                                                                          const Deadline& end) const {
   const TimedCloud sample = every(parts_.prepared.source, kSparseStride);
   std::vector<SampleFit> fits(2 * kPeriods + 1);
   for_each_index(fits.size(), [&](std::size_t i) {
@@ -274,7 +274,9 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
   // On 155 second sweeps those that won had at least 0.99 of its quality, half of the others less than 0.6.
   const double worth_trying = 1.0 - parts_.config.initial_pose.margin;
   const double least =
-      settled(found.icp) ? worth_trying * fit_of(sample, found.icp.state, or_present(found.first->map), parts_.deadline).quality : 0.0;
+      settled(found.icp)
+          ? worth_trying * fit_of(sample, found.icp.state, or_present(found.first->map), parts_.deadline).quality
+          : 0.0;
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SampleFit& a, const SampleFit& b) { return a.quality > b.quality; });
   std::vector<MotionState> starts = {found.icp.state};

@@ -107,6 +107,7 @@ class PlaneMatches {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     bool known = false;  // only where it was asked for
   };
+  void begin(const TimedCloud& source);
   /// Finds the correspondences of those of the points `first`, `first` + 1, … of the strided cloud meet that have left
   /// their voxel.
   void look_up(const LocalMap& map, std::size_t first, std::span<const Eigen::Vector3d> world, std::size_t stride);

@@ -22,16 +22,22 @@ inline Vector6d pose_jacobian(const Eigen::Vector3d& q, const Eigen::Vector3d& n
   return J;
 }
 
+/// What a wider plane does not confirm of β J Jᵀ: β (J Jᵀ − ½ (J J_wᵀ + J_w Jᵀ)).
+Matrix6d unconfirmed_part(double beta, const Vector6d& J, const Vector6d& J_wider) {
+  const Vector6d error = J - J_wider;
+  return 0.5 * beta * (J * error.transpose() + error * J.transpose());
+}
+
 /// Weights residuals and adds them to normal equations, all at one state.
 class Equations {
  public:
   Equations(const TimedCloud& source, const MotionState& state, double sigma_th_m, const AdaptiveIcpConfig& config,
             NormalEquations& sums)
-      : block_(sums, source.timed() && config.refine_motion),
+      : refine_(source.timed() && config.refine_motion),
+        block_(sums, refine_),
         source_(source),
         state_(state),
         origin_(state.T_odom_lidar.translation()),
-        refine_(source.timed() && config.refine_motion),
         adaptive_(config.adaptive),
         sigma2_(sigma_th_m * sigma_th_m),
         gate2_(std::pow(config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m, 2)),
@@ -74,11 +80,11 @@ class Equations {
     return refine_ ? state_.velocity_lever_s(static_cast<double>(source_.offsets_s[i])) : 0.0;
   }
 
+  bool refine_;
   ResidualBlock block_;
   const TimedCloud& source_;
   const MotionState& state_;
   Eigen::Vector3d origin_;
-  bool refine_;
   bool adaptive_;
   double sigma2_;
   double gate2_;
@@ -134,15 +140,19 @@ const Eigen::Vector3f& PlaneMatches::wider_normal(const LocalMap& map, std::size
   return wider.normal;
 }
 
+void PlaneMatches::begin(const TimedCloud& source) {
+  span_ = SweepSpan::of(source);
+  matches_.resize(source.size());
+  spots_.resize(source.size());
+  wider_.resize(source.size() / kSparseStride + 1);
+}
+
 NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state,
                                         double sigma_th_m, const AdaptiveIcpConfig& config, std::size_t stride) {
   const Eigen::Matrix3d R = state.T_odom_lidar.linear();
   const Eigen::Vector3d t = state.T_odom_lidar.translation();
   if (!span_) {
-    span_ = SweepSpan::of(source);
-    matches_.resize(source.size());
-    spots_.resize(source.size());
-    wider_.resize(source.size() / kSparseStride + 1);
+    begin(source);
   }
   const SweepMotion motion(state.motion(), *span_);
   const std::size_t count = (source.size() + stride - 1) / stride;
@@ -169,9 +179,8 @@ NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap
         const double distance_m = normal.dot(p) - match.distance_m;  // (p − q)·n
         const double beta = equations.add(i, p, normal, distance_m, static_cast<double>(match.weight));
         if (k % kSparseStride == 0 && beta > 0.0) {
-          const Vector6d J = pose_jacobian(p - t, normal);
-          const Vector6d error = J - pose_jacobian(p - t, wider_normal(map, i).cast<double>());
-          unconfirmed[chunk] += 0.5 * beta * (J * error.transpose() + error * J.transpose());
+          unconfirmed[chunk] += unconfirmed_part(beta, pose_jacobian(p - t, normal),
+                                                 pose_jacobian(p - t, wider_normal(map, i).cast<double>()));
         }
       }
     }

@@ -141,7 +141,7 @@ TEST(PointBlock, PlacesRaysAndTheirDerivatives) {
   const PoseDerivative derivative{{299.0, 1.0, -2.0}, {0.3, -0.1, 0.2}, {-3.0, 0.4, 5.0}};
   PointBlock rays;
   PointBlock jacobians;
-  PlaceBlock places{};
+  PlaceBlock places;
   rotate(R, block, rays);
   find_elevation_jacobians(block, jacobians);
   transform(T, block, places);

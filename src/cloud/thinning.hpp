@@ -1,6 +1,8 @@
 // A share of the points of a sweep.
 #pragma once
 
+#include <cstddef>
+
 #include "cloud/timed_cloud.hpp"
 #include "rilo/cloud/sweep.hpp"
 
@@ -14,5 +16,8 @@ SweepView thinned(const SweepView& sweep, double share, Sweep& kept);
 
 /// The same of a cloud.
 TimedCloud thinned(const TimedCloud& cloud, double share);
+
+/// Every `stride`-th point of a cloud with its time and count.
+TimedCloud every_nth(const TimedCloud& cloud, std::size_t stride);
 
 }  // namespace rilo

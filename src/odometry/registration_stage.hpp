@@ -26,12 +26,11 @@ struct Registration {
   SE3 T_init = SE3::Identity();     ///< initial pose of the registration that was kept
   std::optional<FirstSweep> first;  ///< second sweep of a map
   double score = 0;                 ///< map score at the registered pose
-  /// Score times share of points that are matched over their residuals (1/m), to be compared within the same gate.
-  double quality = 0;
-  double rival_quality = 0;  ///< second sweep: the best that settled elsewhere
-  bool ambiguous = false;    ///< it may as well lie elsewhere
-  int starts = 1;            ///< how many it was chosen from
-  bool cut = false;          ///< no time for further ones
+  double quality = 0;               ///< see quality_of()
+  double rival_quality = 0;         ///< second sweep: the best that settled elsewhere
+  bool ambiguous = false;           ///< it may as well lie elsewhere
+  int starts = 1;                   ///< how many it was chosen from
+  bool cut = false;                 ///< no time for further ones
 };
 
 /// Registers one sweep; refers to the state of the odometry, which outlives it.
@@ -78,6 +77,8 @@ class RegistrationStage {
                    const Deadline& deadline) const;
   std::vector<MotionState> other_second_starts(const Registration& found) const;
 
+  static constexpr int kFirstSweepRounds = 3;  // each compensates the first sweep with the velocity of the one before
+  static constexpr int kNearbyRounds = 2;  // the last ones: the wide gate of the first may leave the basin of the start
   /// Of the time left; after a loss, what was found has to hold in the rest of it.
   static constexpr double kSearchShare = 0.7;
 

@@ -64,7 +64,9 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
   if (parts_.map.sweeps() == 1) {
     found.cut = search_end_.passed_after(parts_.first_map_ms);
     if (!found.cut) {
-      try_all(other_second_starts(found), kNearbyRounds, found);
+      const std::vector<MotionState> starts = other_second_starts(found);
+      found.cut = parts_.deadline.passed_after(parts_.first_map_ms);  // then some were not tried with the sample
+      try_all(starts, kNearbyRounds, found);
       found.ambiguous = found.rival_quality > kRival * found.quality;
     }
   } else if (parts_.initial_pose.suspicious(found.quality) || newly_degenerate(found)) {
@@ -80,6 +82,7 @@ Registration RegistrationStage::run(const MotionState& predicted, const InitialP
     held.T_init = found.T_init;
     held.starts = found.starts;
     held.cut = found.cut;
+    held.ambiguous = found.ambiguous;
     found = std::move(held);
   }
   return found;

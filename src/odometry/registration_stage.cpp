@@ -1,6 +1,7 @@
 #include "odometry/registration_stage.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -18,6 +19,9 @@ namespace {
 // A sweep that fits badly may have been taken so many periods earlier or later than its stamp: the sensor moved on as
 // before, so that it lies whole periods away.
 constexpr int kPeriods = 8;
+// Where a sweep belongs, its quality exceeds that of the surroundings by more than so many times what it does elsewhere
+// in the median.
+constexpr double kStandsOut = 6.0;
 // Of the quality of a second sweep: one that fits as well elsewhere is not certain. Of 384 that were right, no rival
 // reached 0.9.
 constexpr double kRival = 0.9;
@@ -41,6 +45,12 @@ double over_surroundings(const std::vector<Fit>& fits, std::size_t k) {
     ++sides;
   }
   return sum > 0.0 ? sides * at->quality / sum : 1.0;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 }  // namespace
 
@@ -149,42 +159,57 @@ void RegistrationStage::try_from(const MotionState& start, int rounds, Registrat
   }
 }
 
-/// Missing or reordered sweeps lie elsewhere on the path: where a sample of the sweep stands out there. Quality itself
-/// falls with the overlap with the map, and along a motorway it differs by a few per cent only.
+/// Missing or reordered sweeps lie elsewhere on the path: where a sample of the sweep stands out there.
 void RegistrationStage::try_on_path(const MotionState& predicted, Registration& found) const {
   const Deadline fits_end = search_end_.after(kSearchShare);
   const std::vector<SampleFit> fits = fits_on_path(predicted, fits_end);
-  if (fits_end.passed()) {
-    found.cut = true;
+  found.cut = fits_end.passed();
+  if (found.cut) {
     return;
   }
-  const SampleFit* best = nullptr;
-  double best_ratio = 0.0;
-  double ratio_found = 0.0;
-  for (std::size_t k = 0; k < fits.size(); ++k) {
-    const double ratio = over_surroundings(fits, k);
-    if (!elsewhere(fits[k].state.T_odom_lidar, found.icp.state.T_odom_lidar)) {
-      ratio_found = std::max(ratio_found, ratio);
-    }
-    if (ratio > best_ratio) {
-      best_ratio = ratio;
-      best = &fits[k];
-    }
-  }
-  const double margin = 1.0 + parts_.config.initial_pose.margin;
-  if (best_ratio <= margin * std::max(ratio_found, 1.0) || ratio_found == 0.0) {
+  const PathProfile profile = profile_of(fits, found);
+  const MotionState& best = fits[profile.best].state;
+  if (profile.found == 0.0 || !elsewhere(best.T_odom_lidar, found.icp.state.T_odom_lidar)) {
     // Where it was found, it may have moved as its neighbours do, not as the way to it implies.
-    try_all({best->state}, kFirstSweepRounds, found);
+    if (!is_degenerate(found.icp, parts_.config.health)) {
+      try_all({best}, kFirstSweepRounds, found);
+    }
     return;
   }
-  Registration other =
-      to_map(best->state, parts_.tracker.prior(best->state), parts_.sigma_th_m, searching_, search_end_);
-  other.starts = found.starts + 1;
-  if (settled(other.icp) && !elsewhere(other.icp.state.T_odom_lidar, best->state.T_odom_lidar)) {
+  if (profile.outstanding - std::max(profile.found, 1.0) <= kStandsOut * profile.noise) {
+    return;
+  }
+  Registration other = to_map(best, parts_.tracker.prior(best), parts_.sigma_th_m, searching_, search_end_);
+  found.starts = other.starts = found.starts + 1;
+  if (is_degenerate(other.icp, parts_.config.health)) {
+    return;  // nothing shows that it belongs there: along a tunnel noise stands out, too
+  }
+  if (settled(other.icp) && !elsewhere(other.icp.state.T_odom_lidar, best.T_odom_lidar)) {
     found = std::move(other);
   } else {
     found.ambiguous = true;
   }
+}
+
+/// Quality itself falls with the overlap with the map, and along a motorway it differs by a few per cent only: compared
+/// is how far it exceeds that of the surroundings.
+RegistrationStage::PathProfile RegistrationStage::profile_of(const std::vector<SampleFit>& fits,
+                                                             const Registration& found) {
+  PathProfile profile;
+  std::vector<double> off;
+  for (std::size_t k = 0; k < fits.size(); ++k) {
+    const double ratio = over_surroundings(fits, k);
+    off.push_back(std::abs(ratio - 1.0));
+    if (!elsewhere(fits[k].state.T_odom_lidar, found.icp.state.T_odom_lidar)) {
+      profile.found = std::max(profile.found, ratio);
+    }
+    if (ratio > profile.outstanding) {
+      profile.outstanding = ratio;
+      profile.best = k;
+    }
+  }
+  profile.noise = median(off);
+  return profile;
 }
 
 /// A sample of the sweep, registered from where the sensor was or will be some periods earlier and later.

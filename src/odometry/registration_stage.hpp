@@ -71,6 +71,14 @@ class RegistrationStage {
     double quality = 0;  ///< 0: not tried
   };
   bool newly_degenerate(const Registration& found) const;
+  /// Quality of fits over that of the fits beside them.
+  struct PathProfile {
+    std::size_t best = 0;
+    double outstanding = 0;  ///< of the best
+    double found = 0;        ///< where the sweep was found; 0: no fit ends there
+    double noise = 0;        ///< median distance from 1
+  };
+  static PathProfile profile_of(const std::vector<SampleFit>& fits, const Registration& found);
   void try_on_path(const MotionState& predicted, Registration& found) const;
   std::vector<SampleFit> fits_on_path(const MotionState& predicted, const Deadline& end) const;
   SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map,

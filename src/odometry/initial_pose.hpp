@@ -68,12 +68,12 @@ class InitialPoseStage {
   double score(const TimedCloud& source, const MotionState& state, const LocalMap& map);
 
   /// Whether a registered sweep fits so much worse than usual that it may have been taken at another time than its
-  /// stamp; see Registration::quality.
+  /// stamp; see quality_of().
   bool suspicious(double quality) const;
 
   /// Updates the usual score: slowly with a score that raises the alarm. A pose that slides away slowly
   /// must not take the reference along, and a place with less structure must become usual in time. The
-  /// quality within the wide gate of a map's first sweeps is not comparable with later ones: none.
+  /// quality_of() within the wide gate of a map's first sweeps is not comparable with later ones: none.
   void learn(double score, std::optional<double> quality);
 
   /// A map begins with a sweep: its cloud becomes the target, its score the least that is expected.

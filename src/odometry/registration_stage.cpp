@@ -22,8 +22,8 @@ constexpr int kPeriods = 8;
 // Where a sweep belongs, its quality exceeds that of the surroundings by more than so many times what it does elsewhere
 // in the median.
 constexpr double kStandsOut = 6.0;
-// Of the quality of a second sweep: one that fits as well elsewhere is not certain. Of 384 that were right, no rival
-// reached 0.9.
+// Of the quality of a second sweep: one that fits as well elsewhere is not certain. None of 304 right ones has a rival
+// of 0.9.
 constexpr double kRival = 0.9;
 // Where the velocity is not known, the state may be uncertain by metres along a road. A search then stops at this share
 // of the usual bound of convergence, or it would stop on the way.

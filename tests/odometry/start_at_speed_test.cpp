@@ -15,8 +15,6 @@ constexpr double kStepM = 2.5;  // 90 km/h at 10 sweeps per second
 constexpr double kReachM = 40.0;
 
 struct Panels {
-  double spacing_m = 8.0;
-  double irregular_m = 2.0;  // their distances differ by about so much
   double size_m = 1.8;
   double until_m = 1e3;
 };
@@ -44,9 +42,9 @@ class Motorway {
     for (const double lorry_m : lorries_) {
       board(lorry_m, lorry_m > 0.0 ? 3.5 : -3.5, 2.4, 0.12);
     }
-    const int last = static_cast<int>((x_m + kReachM) / panels_.spacing_m);
-    for (int i = static_cast<int>(-kReachM / panels_.spacing_m); i <= last; ++i) {
-      const double panel_m = panels_.spacing_m * i + panels_.irregular_m * std::sin(1.7 * i) - x_m;
+    const int last = static_cast<int>((x_m + kReachM) / 8.0);
+    for (int i = -5; i <= last; ++i) {
+      const double panel_m = 8.0 * i + 2.0 * std::sin(1.7 * i) - x_m;
       if (std::abs(panel_m) < kReachM && panel_m + x_m < panels_.until_m) {
         board(panel_m, i % 2 == 0 ? 7.0 : -7.0, panels_.size_m, 0.08);
       }
@@ -76,14 +74,17 @@ class Motorway {
   std::mt19937 noise_;
 };
 
+SweepResult registered(Odometry& odometry, const std::vector<Eigen::Vector3f>& points, std::size_t stamped) {
+  SweepView view;
+  view.points = points;
+  view.stamp_ns = static_cast<std::int64_t>(stamped) * 100'000'000;
+  return odometry.register_sweep(view);
+}
+
 void expect_found(Motorway motorway, const std::vector<std::size_t>& sweeps) {
   Odometry odometry({});
   for (const std::size_t i : sweeps) {
-    const std::vector<Eigen::Vector3f> points = motorway.sweep(i);
-    SweepView view;
-    view.points = points;
-    view.stamp_ns = static_cast<std::int64_t>(i) * 100'000'000;
-    const SweepResult result = odometry.register_sweep(view);
+    const SweepResult result = registered(odometry, motorway.sweep(i), i);
     SCOPED_TRACE(testing::Message() << i << ' ' << to_string(result.status));
     EXPECT_NEAR(result.T_odom_lidar.translation().x(), kStepM * static_cast<double>(i), 0.1);
   }
@@ -100,11 +101,7 @@ std::size_t vouched_and_right(Motorway motorway, const std::vector<Faulty>& swee
   std::size_t vouched = 0;
   double anchor_m = 0.0;
   for (const Faulty& sweep : sweeps) {
-    const std::vector<Eigen::Vector3f> points = motorway.sweep(sweep.taken);
-    SweepView view;
-    view.points = points;
-    view.stamp_ns = static_cast<std::int64_t>(sweep.stamped) * 100'000'000;
-    const SweepResult result = odometry.register_sweep(view);
+    const SweepResult result = registered(odometry, motorway.sweep(sweep.taken), sweep.stamped);
     const double truth_m = kStepM * static_cast<double>(sweep.taken);
     const double found_m = result.T_odom_lidar.translation().x();
     if (result.status == OdometryStatus::kInitialising) {
@@ -132,11 +129,7 @@ TEST(StartAtSpeed, ANewMapBeginsWithTheUsualGate) {
   Motorway motorway({}, {.size_m = 0.0});
   Odometry odometry({});
   for (std::size_t i = 0; i < 5; ++i) {
-    const std::vector<Eigen::Vector3f> points = motorway.sweep(i);
-    SweepView view;
-    view.points = points;
-    view.stamp_ns = static_cast<std::int64_t>(i) * 100'000'000;
-    const SweepResult result = odometry.register_sweep(view);
+    const SweepResult result = registered(odometry, motorway.sweep(i), i);
     EXPECT_EQ(result.status, OdometryStatus::kInitialising) << i;
     if (i > 0) {
       EXPECT_DOUBLE_EQ(result.stats.sigma_th_m, OdometryConfig().threshold.initial_m) << i;

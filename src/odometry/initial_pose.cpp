@@ -97,6 +97,9 @@ InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bo
   if (doubt && config_.restarts && !found.cut && !is_consistent(found.best.score)) {
     deskew(situation.source, {predicted.twist}, compensated_);
     for (const SE3& start : restarts(predicted.T_odom_lidar, situation.map, situation.deadline.after(kSearchShare))) {
+      if (is_consistent(found.best.score)) {
+        break;
+      }
       try_from(situation, start, found);
       if (situation.single || resumed) {
         consider(situation, start, found.best);

@@ -59,6 +59,10 @@ RegistrationStage::RegistrationStage(const Parts& parts)
       search_end_(parts.tracker.lost() ? parts.deadline.after(kSearchShare) : parts.deadline),
       searching_(parts.config.icp) {
   searching_.epsilon *= kSearchEpsilon;
+  if (parts_.map.sweeps() == 1) {
+    draft_ = {thinned(parts_.prepared.source, kDraftShare), thinned(parts_.prepared.map_cloud, kDraftShare),
+              thinned(parts_.map.first_cloud(), kDraftShare)};
+  }
 }
 
 Registration RegistrationStage::run(const MotionState& predicted, const InitialPose& init) const {

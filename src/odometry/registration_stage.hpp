@@ -59,7 +59,7 @@ class RegistrationStage {
   Registration to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m,
                       const AdaptiveIcpConfig& icp, const Deadline& deadline) const;
   Registration second_sweep(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
-  std::optional<LocalMap> of_first_sweep(const Vector6d& twist) const;
+  std::optional<LocalMap> of_first_sweep(const TimedCloud& first, const Vector6d& twist) const;
   Vector6d twist_of_first(const IcpResult& second, double sigma_m, const Deadline& deadline) const;
   const LocalMap& or_present(const std::optional<LocalMap>& compensated) const;
   void try_from(const MotionState& start, int rounds, Registration& found) const;
@@ -93,6 +93,14 @@ class RegistrationStage {
   Parts parts_;
   Deadline search_end_;
   AdaptiveIcpConfig searching_;  // where no velocity is known
+  /// A share of the points of both sweeps, while the second one of a map is sought.
+  struct Draft {
+    TimedCloud source;
+    TimedCloud map_cloud;
+    TimedCloud first;  ///< of the map cloud of the first sweep
+  };
+  static constexpr double kDraftShare = 1.0 / 3.0;  // with a quarter fewer second sweeps are certain
+  std::optional<Draft> draft_;
 };
 
 }  // namespace rilo

@@ -19,15 +19,17 @@ namespace {
 constexpr double kSecondStepM = 1.25;
 constexpr double kSecondSpeed = 37.5;     // m/s, 135 km/h: so far do the starts reach, ...
 constexpr double kSecondReachM = 40.0;    // ... but not where two sweeps share too little
-constexpr std::size_t kSecondStarts = 2;  // of which so many are tried with all points
+constexpr std::size_t kSecondStarts = 4;  // of which so many are tried again, ...
+constexpr double kWorthTrying = 0.8;  // ... from where a sample fits so many times as well as at the first result: a
+                                      // wrong one that is not compared with the right one would be vouched for
 }  // namespace
 
-/// The map of the first sweep, compensated for a velocity, if it carries times.
-std::optional<LocalMap> RegistrationStage::of_first_sweep(const Vector6d& twist) const {
+/// The map of the first sweep, or of some of its points, compensated for a velocity, if it carries times.
+std::optional<LocalMap> RegistrationStage::of_first_sweep(const TimedCloud& first, const Vector6d& twist) const {
   if (!parts_.map.first_can_be_compensated()) {
     return std::nullopt;
   }
-  return parts_.map.first_compensated(twist, parts_.prepared.scene_range_m, parts_.pose_by_elevation);
+  return parts_.map.first_compensated(first, twist, parts_.prepared.scene_range_m, parts_.pose_by_elevation);
 }
 
 /// That map, or the present one where the first sweep cannot be compensated.
@@ -38,16 +40,16 @@ const LocalMap& RegistrationStage::or_present(const std::optional<LocalMap>& com
 /// Velocity of the first sweep, from its registration to the second one: a sensor that speeds up or turns in between
 /// has another. The pose found beside it says nothing, since the first sweep is where the map begins.
 Vector6d RegistrationStage::twist_of_first(const IcpResult& second, double sigma_m, const Deadline& deadline) const {
-  const LocalMap map = parts_.map.of_sweep(parts_.prepared.map_cloud, second.state, parts_.prepared.scene_range_m,
-                                           parts_.pose_by_elevation);
+  const LocalMap map =
+      parts_.map.of_sweep(draft_->map_cloud, second.state, parts_.prepared.scene_range_m, parts_.pose_by_elevation);
   const MotionState start{parts_.tracker.trusted().T_odom_lidar, second.state.twist};
-  const IcpResult first = adaptive_icp(parts_.map.first_cloud(), map, start, parts_.tracker.prior_before(second),
-                                       sigma_m, searching_, deadline);
+  const IcpResult first =
+      adaptive_icp(draft_->first, map, start, parts_.tracker.prior_before(second), sigma_m, searching_, deadline);
   return (first.converged() ? first : second).state.twist;
 }
 
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the
-/// start implies, then with its own.
+/// start implies, then with its own. All points are in use in the last round alone.
 Registration RegistrationStage::second_sweep(const MotionState& start, const MotionPrior& first_prior,
                                              int rounds) const {
   Registration found;
@@ -55,22 +57,25 @@ Registration RegistrationStage::second_sweep(const MotionState& start, const Mot
   found.T_init = start.T_odom_lidar;
   int iterations = 0;
   Vector6d twist = start.twist;
-  for (int round = kFirstSweepRounds - rounds; round < kFirstSweepRounds; ++round) {
-    if (iterations > 0 && parts_.deadline.passed_after(parts_.first_map_ms)) {
-      found.icp.termination = IcpTermination::kTimeLimit;
-      break;
-    }
+  bool last = false;
+  for (int round = kFirstSweepRounds - rounds; !last; ++round) {
+    // A draft takes a share of the time of the last round, which it must leave.
+    const bool late = parts_.deadline.passed_after((1.0 + 2.0 * kDraftShare) * parts_.first_map_ms);
+    last = late || round + 1 == kFirstSweepRounds;
     // Each round starts nearer.
     const double sigma_m = std::max(std::ldexp(parts_.sigma_th_m, -round), parts_.config.threshold.floor_m);
     const Deadline round_end = search_end_.after(1.0 / (kFirstSweepRounds - round));
     if (iterations > 0 && parts_.map.first_can_be_compensated()) {
       twist = twist_of_first(found.icp, sigma_m, round_end.after(0.5));
     }
-    found.first = FirstSweep{of_first_sweep(twist), twist};
+    found.first = FirstSweep{of_first_sweep(last ? parts_.map.first_cloud() : draft_->first, twist), twist};
     const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
-    found.icp = adaptive_icp(parts_.prepared.source, or_present(found.first->map), found.icp.state, prior, sigma_m,
-                             searching_, round_end);
+    found.icp = adaptive_icp(last ? parts_.prepared.source : draft_->source, or_present(found.first->map),
+                             found.icp.state, prior, sigma_m, searching_, round_end);
     iterations += found.icp.iterations;
+    if (last && round + 1 < kFirstSweepRounds) {
+      found.icp.termination = IcpTermination::kTimeLimit;
+    }
   }
   found.icp.iterations = iterations;
   rate(found, or_present(found.first->map));
@@ -95,15 +100,14 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
   std::vector<SampleFit> fits(places.size());
   for_each_index(places.size(), [&](std::size_t i) {
     if (!parts_.deadline.passed_after(parts_.first_map_ms)) {
-      fits[i] = fit_of(sample, places[i], or_present(of_first_sweep(places[i].twist)), parts_.deadline);
+      fits[i] = fit_of(sample, places[i], or_present(of_first_sweep(draft_->first, places[i].twist)), parts_.deadline);
     }
   });
-  // On 155 second sweeps those that won had at least 0.99 of its quality, half of the others less than 0.6.
-  const double worth_trying = 1.0 - parts_.config.initial_pose.margin;
-  const double least =
-      settled(found.icp)
-          ? worth_trying * fit_of(sample, found.icp.state, or_present(found.first->map), parts_.deadline).quality
-          : 0.0;
+  double least = 0.0;
+  if (settled(found.icp)) {
+    const std::optional<LocalMap> map = of_first_sweep(draft_->first, found.first->twist);
+    least = kWorthTrying * fit_of(sample, found.icp.state, or_present(map), parts_.deadline).quality;
+  }
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SampleFit& a, const SampleFit& b) { return a.quality > b.quality; });
   std::vector<MotionState> starts = {found.icp.state};

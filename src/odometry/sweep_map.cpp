@@ -25,9 +25,9 @@ void SweepMap::insert(const TimedCloud& cloud, const MotionState& state, const P
 
 void SweepMap::thin_first(double share) { first_cloud_ = thinned(first_cloud_, share); }
 
-LocalMap SweepMap::first_compensated(const Vector6d& twist, double scene_range_m,
+LocalMap SweepMap::first_compensated(const TimedCloud& first, const Vector6d& twist, double scene_range_m,
                                      const PoseDerivative& pose_by_elevation) const {
-  return of_sweep(first_cloud_, {T_odom_first_, twist}, scene_range_m, pose_by_elevation);
+  return of_sweep(first, {T_odom_first_, twist}, scene_range_m, pose_by_elevation);
 }
 
 LocalMap SweepMap::of_sweep(const TimedCloud& cloud, const MotionState& state, double scene_range_m,

@@ -38,8 +38,8 @@ class SweepMap {
   /// Leaves a share of the points of that sweep.
   void thin_first(double share);
   const TimedCloud& first_cloud() const { return first_cloud_; }
-  /// The map of the first sweep alone, compensated for `twist`.
-  LocalMap first_compensated(const Vector6d& twist, double scene_range_m,
+  /// The map of the first sweep alone, compensated for `twist`; `first`: its points, or some of them.
+  LocalMap first_compensated(const TimedCloud& first, const Vector6d& twist, double scene_range_m,
                              const PoseDerivative& pose_by_elevation) const;
   /// A map of one sweep alone.
   LocalMap of_sweep(const TimedCloud& cloud, const MotionState& state, double scene_range_m,

@@ -18,13 +18,18 @@ echo "lint: clang-format"
 xargs -0 clang-format --dry-run -Werror --style=file <build/.lint-files || failed+=("clang-format (scripts/format.sh)")
 
 echo "lint: clang-tidy"
-# Most of its time goes into the headers, so that eight sources are read together (a unity build), unless some are
+# Most of its time goes into the headers, so that sixteen sources are read together (a unity build), unless some are
 # named.
 if [ $# -gt 0 ]; then
   cmake --preset lint --log-level=WARNING -DCMAKE_UNITY_BUILD=OFF >/dev/null
   grep -z '\.cpp$' build/.lint-files | grep -zv '^tests/consumer/' >build/.tidy-files || true
 else
   cmake --preset lint --log-level=WARNING >/dev/null
+  # In the reverse of the order in which they are built: a source that only compiles after another one is found.
+  find build/lint -path '*/Unity/*.cxx' | while read -r unity; do
+    tac "$unity" >build/.reversed
+    mv build/.reversed "$unity"
+  done
   sed -n 's/^ *"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | tr '\n' '\0' >build/.tidy-files
 fi
 # Headers are seen through their users. The compile commands are GCC's: Clang knows not all of its warnings.

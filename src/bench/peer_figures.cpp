@@ -13,7 +13,8 @@ namespace rilo {
 
 namespace {
 
-constexpr CsvKind kFigures{"figures of peers (columns drive, peer, t_rel_pct)", "See docs/bench.md", "Check the path"};
+constexpr CsvKind kPeerFigures{"figures of peers (columns drive, peer, t_rel_pct)", "See docs/bench.md",
+                               "Check the path"};
 
 struct Alias {
   const char* column;
@@ -41,7 +42,7 @@ BenchCell cell_of(const CsvFile& line, const std::filesystem::path& file) {
 std::vector<BenchCell> read_peer_figures(const std::filesystem::path& file) {
   std::vector<BenchCell> cells;
   std::set<std::pair<std::string, std::string>> seen;
-  CsvFile line(file, kFigures);
+  CsvFile line(file, kPeerFigures);
   for (const char* needed : {"drive", "peer", "t_rel_pct"}) line.need(needed);
   while (line.next()) {
     if (line.cell("peer").empty()) line.refuse("peer", "the name of a peer");

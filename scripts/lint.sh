@@ -26,7 +26,7 @@ if [ $# -gt 0 ]; then
 else
   cmake --preset lint --log-level=WARNING >/dev/null
   # In the reverse of the order in which they are built: a source that only compiles after another one is found.
-  find build/lint -path '*/Unity/*.cxx' | while read -r unity; do
+  find build/lint/src build/lint/apps -path '*/Unity/*.cxx' | while read -r unity; do
     tac "$unity" >build/.reversed
     mv build/.reversed "$unity"
   done

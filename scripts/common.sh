@@ -22,7 +22,6 @@ print_sources0() {
 build_preset() {
   local preset="$1"
   shift
-  cmake --preset "$preset" --log-level=WARNING \
-    ${RILO_UNITY:+"-DCMAKE_UNITY_BUILD=$RILO_UNITY" -DCMAKE_UNITY_BUILD_BATCH_SIZE=16} >/dev/null
+  cmake --preset "$preset" --log-level=WARNING ${RILO_UNITY:+"-DCMAKE_UNITY_BUILD=$RILO_UNITY"} >/dev/null
   cmake --build --preset "$preset" --parallel "$JOBS" "$@"
 }

@@ -104,7 +104,7 @@ std::vector<MotionState> RegistrationStage::other_second_starts(const Registrati
     }
   });
   double least = 0.0;
-  if (settled(found.icp)) {
+  if (settled(found.icp) && !parts_.deadline.passed_after(parts_.first_map_ms)) {
     const std::optional<LocalMap> map = of_first_sweep(draft_->first, found.first->twist);
     least = kWorthTrying * fit_of(sample, found.icp.state, or_present(map), parts_.deadline).quality;
   }

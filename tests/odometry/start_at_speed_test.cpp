@@ -15,16 +15,12 @@ namespace {
 constexpr double kStepM = 2.5;  // 90 km/h at 10 sweeps per second
 constexpr double kReachM = 40.0;
 
-struct Panels {
-  double size_m = 1.8;
-};
-
 /// Points of a motorway seen from `x_m` along it, sensor frame. Rings on the ground and on noise barriers are the same
 /// in each sweep; panels at irregular distances show the way; backs of lorries drive with the sensor.
 class Motorway {
  public:
-  explicit Motorway(std::vector<double> lorries, const Panels& panels = {})
-      : lorries_(std::move(lorries)), panels_(panels) {}
+  explicit Motorway(std::vector<double> lorries, double panel_size_m = 1.8)
+      : lorries_(std::move(lorries)), panel_size_m_(panel_size_m) {}
 
   std::vector<Eigen::Vector3f> sweep(std::size_t index) {
     points_.clear();
@@ -46,7 +42,7 @@ class Motorway {
     for (int i = -5; i <= last; ++i) {
       const double panel_m = 8.0 * i + 2.0 * std::sin(1.7 * i) - x_m;
       if (std::abs(panel_m) < kReachM) {
-        board(panel_m, i % 2 == 0 ? 7.0 : -7.0, panels_.size_m, 0.08);
+        board(panel_m, i % 2 == 0 ? 7.0 : -7.0, panel_size_m_, 0.08);
       }
     }
     return points_;
@@ -69,7 +65,7 @@ class Motorway {
   }
 
   std::vector<double> lorries_;  // m ahead
-  Panels panels_;
+  double panel_size_m_;
   std::vector<Eigen::Vector3f> points_;
   std::mt19937 noise_;
 };
@@ -126,7 +122,7 @@ TEST(StartAtSpeed, TheSecondSweepIsSoughtAsFarAsTheTimeBetweenAllows) {
 
 // Nothing shows the way: each sweep begins a new map, which does not inherit the doubt about the last.
 TEST(StartAtSpeed, ANewMapBeginsWithTheUsualGate) {
-  Motorway motorway({}, {.size_m = 0.0});
+  Motorway motorway({}, 0.0);
   Odometry odometry({});
   for (std::size_t i = 0; i < 5; ++i) {
     const SweepResult result = registered(odometry, motorway.sweep(i), i);
@@ -150,7 +146,7 @@ TEST(AtSpeed, SweepsOfAnotherMomentAreFoundWhereTheyWereTaken) {
     reversed[10 + i].taken = 14 - i;
   }
   for (const double size_m : {1.8, 1.0}) {
-    const Motorway motorway({}, {.size_m = size_m});
+    const Motorway motorway({}, size_m);
     EXPECT_GE(vouched_and_right(motorway, swapped), 18U) << size_m;
     EXPECT_GE(vouched_and_right(motorway, reversed), 16U) << size_m;
   }
@@ -159,7 +155,7 @@ TEST(AtSpeed, SweepsOfAnotherMomentAreFoundWhereTheyWereTaken) {
 /// What a VLP-16 sees in a round tunnel, sensor frame: rings that move with it, and boxes on the ground up to a place.
 class Tunnel {
  public:
-  static constexpr double kTunnelStepM = 0.35;
+  static constexpr double kForwardM = 0.35;
   static constexpr double kRadiusM = 3.0;
   static constexpr double kHeightM = 1.0;  // of the sensor over the ground
   static constexpr double kLastBoxM = 12.0;
@@ -167,7 +163,7 @@ class Tunnel {
   std::vector<Eigen::Vector3f> sweep(std::size_t index) {
     noise_.seed(static_cast<unsigned>(index));
     std::normal_distribution<double> error_m(0.0, 0.01);
-    const double x_m = kTunnelStepM * static_cast<double>(index);
+    const double x_m = kForwardM * static_cast<double>(index);
     std::vector<Eigen::Vector3f> points;
     for (int beam = 0; beam < 16; ++beam) {
       const double elevation_rad = (2.0 * beam - 15.0) * M_PI / 180.0;
@@ -214,7 +210,7 @@ TEST(AtSpeed, WhereNothingShowsTheWayNoOtherPlaceIsTaken) {
     const SweepResult result = registered(odometry, tunnel.sweep(i), i);
     const double x_m = result.T_odom_lidar.translation().x();
     if (i > 1) {
-      EXPECT_NEAR(x_m - before_m, Tunnel::kTunnelStepM, 0.1) << i << ' ' << to_string(result.status);
+      EXPECT_NEAR(x_m - before_m, Tunnel::kForwardM, 0.1) << i << ' ' << to_string(result.status);
     }
     degenerate += result.status == OdometryStatus::kDegenerate;
     before_m = x_m;

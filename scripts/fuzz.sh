@@ -14,7 +14,7 @@ esac
 seconds="${1:-60}"
 shift || true
 
-scripts/setup.sh --fuzz
+scripts/setup.sh --clang
 build_preset fuzz
 programs=build/fuzz/fuzz
 found="$PWD/out/fuzz"

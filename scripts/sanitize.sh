@@ -4,7 +4,7 @@
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-scripts/setup.sh
+scripts/setup.sh --clang
 read -ra targets <<<"${TARGETS:-}"
 build_preset "${PRESET:-asan}" ${targets[@]:+--target "${targets[@]}"}
 ctest --preset "${PRESET:-asan}" --parallel "$JOBS" "$@"

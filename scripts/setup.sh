@@ -8,7 +8,7 @@
 #   scripts/setup.sh --docs     also Doxygen
 #   scripts/setup.sh --bench    also Valgrind, which counts instructions
 #   scripts/setup.sh --browser  also Chromium, which the viewer's page is tested in
-#   scripts/setup.sh --fuzz     also Clang with libFuzzer
+#   scripts/setup.sh --clang    also Clang with libFuzzer and its sanitizers
 #   scripts/setup.sh --package  also what building Debian packages needs
 #   scripts/setup.sh --wheel    also what building Python wheels needs
 #   scripts/setup.sh --witnesses  also, from PyPI into build/witnesses, the programs that tests/witnesses asks
@@ -36,7 +36,7 @@ lint=(clang-format clang-tidy gcovr shellcheck)
 docs=(doxygen)
 bench=(valgrind)
 browser=(chromium)
-fuzz=(clang libclang-rt-14-dev)
+clang=(clang libclang-rt-14-dev)
 package=(dpkg-dev file)
 wheel=("${viewer[@]}" python3-dev python3-venv)
 witnesses=(python3-venv)
@@ -47,7 +47,7 @@ with_all=false
 with_lint=false
 with_docs=false
 with_bench=false
-with_fuzz=false
+with_clang=false
 with_browser=false
 with_package=false
 with_wheel=false
@@ -61,7 +61,7 @@ for argument in "$@"; do
     --lint) with_lint=true ;;
     --docs) with_docs=true ;;
     --bench) with_bench=true ;;
-    --fuzz) with_fuzz=true ;;
+    --clang) with_clang=true ;;
     --browser) with_browser=true ;;
     --package) with_package=true ;;
     --wheel) with_wheel=true ;;
@@ -69,7 +69,7 @@ for argument in "$@"; do
     --arm) with_arm=true ;;
     --print) print_only=true ;;
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/setup.sh | grep -v '^shellcheck'; exit 0 ;;
-    *) die "unknown option '$argument'; known: --minimal --all --lint --docs --bench --browser --fuzz --package --wheel --witnesses --arm --print" ;;
+    *) die "unknown option '$argument'; known: --minimal --all --lint --docs --bench --browser --clang --package --wheel --witnesses --arm --print" ;;
   esac
 done
 
@@ -80,7 +80,7 @@ $minimal || wanted+=("${viewer[@]}" "${tests[@]}")
 ! $with_docs || wanted+=("${docs[@]}")
 ! $with_bench || wanted+=("${bench[@]}")
 ! $with_browser || wanted+=("${browser[@]}")
-! $with_fuzz || wanted+=("${fuzz[@]}")
+! $with_clang || wanted+=("${clang[@]}")
 ! $with_package || wanted+=("${package[@]}")
 ! $with_wheel || wanted+=("${wheel[@]}")
 ! $with_witnesses || wanted+=("${witnesses[@]}")

@@ -7,6 +7,7 @@
 
 #include "cloud/thinning.hpp"
 #include "odometry/motion_prior.hpp"
+#include "odometry/registration_stage.hpp"
 #include "odometry/sweep_record.hpp"
 #include "registration/plane_residuals.hpp"
 #include "registration/uneven_motion.hpp"
@@ -149,11 +150,19 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
     map_.thin_first(std::min(1.0, map_points / static_cast<double>(map_.first_cloud().size())));
   }
   const Deadline end = deadline(budget_.ms(Work::kSettle) + budget_.ms(Work::kInsert, map_points));
-  const RegistrationStage stage(
-      {config_, prepared, tracker_, map_, initial_pose_, calibration_.pose_by_elevation(), threshold_.sigma_th_m(),
-       threshold_.usual_sigma_th_m(), period_s, end,
-       budget_.ms(Work::kInsert, static_cast<double>(map_.first_cloud().size()) + map_points)});
-  Registration registration = stage.run(predicted, init);
+  const RegistrationParts parts{
+      .config = config_,
+      .prepared = prepared,
+      .tracker = tracker_,
+      .map = map_,
+      .initial_pose = initial_pose_,
+      .pose_by_elevation = calibration_.pose_by_elevation(),
+      .sigma_th_m = threshold_.sigma_th_m(),
+      .usual_sigma_th_m = threshold_.usual_sigma_th_m(),
+      .period_s = period_s,
+      .deadline = end,
+      .first_map_ms = budget_.ms(Work::kInsert, static_cast<double>(map_.first_cloud().size()) + map_points)};
+  Registration registration = fine_registration(parts, predicted, init);
   const IcpResult& icp = registration.icp;
   record(icp, result.stats);
   result.stats.coarse_cut = result.stats.coarse_cut || registration.cut;

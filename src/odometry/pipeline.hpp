@@ -14,7 +14,7 @@
 #include "odometry/initial_pose.hpp"
 #include "odometry/motion_tracker.hpp"
 #include "odometry/pose_covariance.hpp"
-#include "odometry/registration_stage.hpp"
+#include "odometry/registration.hpp"
 #include "odometry/stage_clock.hpp"
 #include "odometry/sweep_clock.hpp"
 #include "odometry/sweep_judge.hpp"

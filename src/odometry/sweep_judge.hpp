@@ -5,7 +5,7 @@
 
 #include "odometry/health.hpp"
 #include "odometry/motion_tracker.hpp"
-#include "odometry/registration_stage.hpp"
+#include "odometry/registration.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 
 namespace rilo {

@@ -17,8 +17,6 @@ constexpr double kUnconfirmedMargin = 4.0 / 3.0;
 // The strided cloud is weighted with this multiple of sigma_th: a sweep off by more than the scale of the weights would
 // stay where it is.
 constexpr double kWideStart = 3.0;
-// The strided cloud need not converge as far as the whole one: what is left is below the noise of its sample.
-constexpr double kCoarseTolerance = 4.0;
 // From this iteration on, which 95 % of the sweeps of a drive do not need, points keep their correspondences: a few
 // that change planes at every step would keep the sweep oscillating.
 constexpr int kFreezeAfter = 16;
@@ -134,8 +132,9 @@ IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const Moti
     }
     result.state = perturbed(result.state, acceleration.moved(delta, result.posterior_information));
     result.last_update = delta.head<6>();
-    // In standard deviations of the state, so that it means the same for all sensors and places.
-    const double epsilon = (stride > 1 ? kCoarseTolerance : 1.0) * config.epsilon;
+    // In standard deviations of the state, so that it means the same for all sensors and places. The strided cloud need
+    // not converge as far as the whole one: what is left is below the noise of its sample.
+    const double epsilon = static_cast<double>(stride) * config.epsilon;
     const bool small = delta.dot(result.posterior_information * delta) < epsilon * epsilon;
     if (small && stride == 1) {
       result.termination = IcpTermination::kConverged;

@@ -1,0 +1,80 @@
+#include "odometry/pose_search.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "cloud/deskew.hpp"
+#include "odometry/optimum.hpp"
+#include "registration/map_score.hpp"
+
+namespace rilo {
+
+namespace {
+// Where the velocity is not known, the state may be uncertain by metres along a road. A search then stops at this share
+// of the usual bound of convergence, or it would stop on the way.
+constexpr double kSearchEpsilon = 0.1;
+}  // namespace
+
+PoseSearch::PoseSearch(const RegistrationParts& parts)
+    : parts_(parts),
+      end_(parts.tracker.lost() ? parts.deadline.after(kTimeShare) : parts.deadline),
+      icp_(parts.config.icp) {
+  icp_.epsilon *= kSearchEpsilon;
+}
+
+Registration PoseSearch::to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m,
+                                const AdaptiveIcpConfig& icp, const Deadline& deadline) const {
+  Registration found;
+  found.icp = adaptive_icp(parts_.prepared.source, parts_.map.map(), start, prior, sigma_th_m, icp, deadline);
+  found.T_init = start.T_odom_lidar;
+  rate(found, parts_.map.map());
+  return found;
+}
+
+void PoseSearch::rate(Registration& found, const LocalMap& map) const {
+  found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, map);
+  found.quality = quality_of(found.icp, found.score, parts_.prepared.source.size());
+}
+
+SampleFit PoseSearch::fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map,
+                             const Deadline& deadline) const {
+  const IcpResult icp =
+      adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, icp_, deadline);
+  std::vector<Eigen::Vector3f> points;
+  deskew(sample, icp.state.motion(), points);
+  const double score = map_score(points, map, icp.state.T_odom_lidar, parts_.config.initial_pose.score_sigma_m);
+  return {icp.state, quality_of(icp, score, sample.size())};
+}
+
+void PoseSearch::try_all(const std::vector<MotionState>& starts, const Register& from, Registration& found) const {
+  int tried = found.starts;
+  bool cut = found.cut;
+  for (const MotionState& start : starts) {
+    cut = cut || end_.passed();
+    if (cut) {
+      break;
+    }
+    keep_better(from(start), found);
+    ++tried;
+  }
+  found.starts = tried;
+  found.cut = cut;
+}
+
+void PoseSearch::keep_better(Registration other, Registration& found) const {
+  const double margin = 1.0 + parts_.config.initial_pose.margin;
+  const bool settles = settles_better(other.icp, found.icp) && other.quality > found.quality;
+  const bool wins = settles || (!same_optimum(other.icp.state.T_odom_lidar, found.icp.state.T_odom_lidar) &&
+                                other.quality > margin * found.quality);
+  Registration& kept = wins ? other : found;
+  const Registration& rest = wins ? found : other;
+  kept.rival_quality = std::max(found.rival_quality, other.rival_quality);
+  if (settled(rest.icp) && elsewhere(rest.icp.state.T_odom_lidar, kept.icp.state.T_odom_lidar)) {
+    kept.rival_quality = std::max(kept.rival_quality, rest.quality);
+  }
+  if (wins) {
+    found = std::move(other);
+  }
+}
+
+}  // namespace rilo

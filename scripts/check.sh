@@ -19,11 +19,12 @@
 #   package         Debian packages with shared libraries; the command in them simulates and runs a drive
 #   arm             the core's tests, cross-compiled for 64-bit ARM, under qemu
 #   wheel           the source package; a wheel for Debian's Python, in an empty environment: tests, same poses
-#   wheels          the same for each Python that is here
+#   wheels          the same for each Python that is here, Debian's among them
+# Not among "all", since another one does it, too: sanitize-short, wheel.
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-phases=(test lint separate docs sanitize threads fuzz coverage instructions package arm wheel wheels)
+phases=(test lint separate docs sanitize threads fuzz coverage instructions package arm wheels)
 
 # Long drives under sanitizers take half an hour.
 long='Elevation.(AnErrorIsFound|ASensorWithoutError)|BeamCalibration.AWorseUnit|Covariance|SameAsCommand'
@@ -48,7 +49,7 @@ run_phase() {
     package) scripts/package.sh --try ;;
     arm) scripts/arm.sh ;;
     wheel) scripts/wheel.sh --sdist --try && scripts/wheel.sh --try ;;
-    wheels) scripts/wheel.sh --all --try ;;
+    wheels) scripts/wheel.sh --sdist --try && scripts/wheel.sh --all --try ;;
   esac
 }
 
@@ -66,8 +67,8 @@ for argument in "$@"; do
     -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
     -*) die "unknown option '$argument'; known: --stop" ;;
     *)
-      [[ " ${phases[*]} sanitize-short " == *" $argument "* ]] ||
-        die "unknown phase '$argument'; known: ${phases[*]} sanitize-short"
+      [[ " ${phases[*]} sanitize-short wheel " == *" $argument "* ]] ||
+        die "unknown phase '$argument'; known: ${phases[*]} sanitize-short wheel"
       chosen+=("$argument")
       ;;
   esac

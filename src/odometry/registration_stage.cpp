@@ -48,7 +48,10 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
       PathSearch(parts, search).improve(predicted, found);
     }
   }
-  return parts.tracker.lost() ? held(parts, search, found) : found;
+  if (parts.tracker.lost()) {
+    return held(parts, search, found);
+  }
+  return found;
 }
 
 }  // namespace rilo

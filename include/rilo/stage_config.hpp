@@ -46,7 +46,7 @@ struct AdaptiveIcpConfig {
   double noise_m = 0.02;          ///< least standard deviation of a residual
   double scatter_noise_m = 0.01;  ///< σ of the weight σ² / (σ² + variance) of points that meet no plane
   double independent_share = 0.01;  ///< share of the residuals that count as independent in the information
-  double weak_direction = 0.002;    ///< relative eigenvalue at which half of a direction is left to the prior; 0: off
+  double weak_direction = 0.003;    ///< relative eigenvalue at which half of a direction is left to the prior; 0: off
 };
 
 /// Local voxel map.

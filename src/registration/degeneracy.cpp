@@ -7,6 +7,26 @@
 
 namespace rilo {
 
+namespace {
+constexpr double kLeastArm = 1e-6;  // of the trace: where all normals are parallel, a centre along them means nothing
+
+/// H_rt = Σ β [q]× N about the sensor, N = n nᵀ. About c = (tr ΣβN − ΣβN)⁻¹ Σβ (tr N − N) q it is symmetric and the
+/// trace of the rotations least.
+Eigen::Vector3d centre_of(const Matrix6d& H) {
+  const Eigen::Matrix3d N = H.bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d skew = H.topRightCorner<3, 3>() - H.bottomLeftCorner<3, 3>();
+  const Eigen::Matrix3d across = (1.0 + kLeastArm) * N.trace() * Eigen::Matrix3d::Identity() - N;
+  return across.ldlt().solve(Eigen::Vector3d(skew(2, 1), skew(0, 2), skew(1, 0)));
+}
+}  // namespace
+
+Matrix6d PoseDegeneracy::to_sensor() const {
+  Matrix6d S = Matrix6d::Identity();
+  S.topLeftCorner<3, 3>() /= lever_arm_m;
+  S.bottomLeftCorner<3, 3>() = hat(centre_m) / lever_arm_m;
+  return S;
+}
+
 Eigen::Matrix3d PoseDegeneracy::translation_evidence() const {
   const auto rows = directions.bottomRows<3>();
   return rows * relative_eigenvalues.asDiagonal() * rows.transpose();
@@ -14,18 +34,23 @@ Eigen::Matrix3d PoseDegeneracy::translation_evidence() const {
 
 PoseDegeneracy analyse_degeneracy(const Matrix6d& H, const Matrix6d& noise) {
   PoseDegeneracy result;
-  const double rotation = H.topLeftCorner<3, 3>().trace();
   const double translation = H.bottomRightCorner<3, 3>().trace();
-  if (!(translation > 0.0) || !(rotation > 0.0) || !H.allFinite()) {
+  if (!(translation > 0.0) || !H.allFinite()) {
     return result;
   }
-  result.lever_arm_m = std::sqrt(rotation / translation);
-  Vector6d scale = Vector6d::Ones();
-  scale.head<3>().setConstant(1.0 / result.lever_arm_m);
-  const Matrix6d scaled = scale.asDiagonal() * (H - noise) * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scaled);
+  PoseDegeneracy about;
+  about.centre_m = centre_of(H);
+  const Matrix6d to_centre = about.to_sensor();
+  const double rotation = (to_centre.transpose() * H * to_centre).topLeftCorner<3, 3>().trace();
+  if (!(rotation > 0.0)) {
+    return result;
+  }
+  about.lever_arm_m = std::sqrt(rotation / translation);
+  const Matrix6d S = about.to_sensor();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(S.transpose() * (H - noise) * S);
   const double largest = solver.eigenvalues()[5];
   if (largest > 0.0) {
+    result = about;
     result.relative_eigenvalues = solver.eigenvalues().cwiseMax(0.0) / largest;
     result.directions = solver.eigenvectors();
   }
@@ -42,12 +67,10 @@ Matrix6d soft_selection(const PoseDegeneracy& degeneracy, double threshold) {
   const Eigen::Array<double, 6, 1> power = (degeneracy.relative_eigenvalues.array() - half).max(0.0).pow(4);
   // W is applied from both sides, so that it carries the square root of the share.
   const Vector6d share = (power / (power + std::pow(half, 4))).sqrt();
-  Vector6d scale = Vector6d::Ones();
-  scale.head<3>().setConstant(degeneracy.lever_arm_m);
   const Matrix6d& V = degeneracy.directions;
-  // V S Vᵀ acts on perturbations in metres; the scales carry it to radians and metres.
-  const Matrix6d W = V * share.asDiagonal() * V.transpose();
-  return scale.cwiseInverse().asDiagonal() * W * scale.asDiagonal();
+  // V S Vᵀ acts on perturbations in metres about the centre.
+  const Matrix6d S = degeneracy.to_sensor();
+  return S * V * share.asDiagonal() * V.transpose() * S.inverse();
 }
 
 }  // namespace rilo

@@ -149,6 +149,44 @@ TEST(Degeneracy, TheLeverMakesItIndependentOfScaleAndWeight) {
   EXPECT_TRUE(large.relative_eigenvalues.isApprox(small.relative_eigenvalues, 1e-9));
 }
 
+/// Information about a sensor that sits at `offset` from where `H` is about, with the same axes.
+Matrix6d seen_from(const Eigen::Vector3d& offset, const Matrix6d& H) {
+  Matrix6d S = Matrix6d::Identity();
+  S.bottomLeftCorner<3, 3>() = hat(offset);
+  return S.transpose() * H * S;
+}
+
+TEST(Degeneracy, DoesNotDependOnWhereTheSensorSits) {
+  const Matrix6d H = hessian_of_planes({kX, -kX, kY, -kZ}) + 0.1 * hessian_of_planes({kX, kY, kZ}, 9.0);
+  const Matrix6d noise = 1e-3 * hessian_of_planes({kY, kZ});
+  const Eigen::Vector3d offset(-30.0, 4.0, 1.0);  // it looks at the same planes from afar
+  const PoseDegeneracy within = analyse_degeneracy(H, noise);
+  const PoseDegeneracy ahead = analyse_degeneracy(seen_from(offset, H), seen_from(offset, noise));
+  EXPECT_NEAR(ahead.lever_arm_m, within.lever_arm_m, 1e-4);
+  EXPECT_LT((ahead.centre_m + offset - within.centre_m).norm(), 1e-3);
+  EXPECT_TRUE(ahead.relative_eigenvalues.isApprox(within.relative_eigenvalues, 1e-4))
+      << ahead.relative_eigenvalues.transpose() << "\n"
+      << within.relative_eigenvalues.transpose();
+  const double threshold = within.relative_eigenvalues[1];
+  const Matrix6d selected = soft_selection(within, threshold).transpose() * H * soft_selection(within, threshold);
+  const Matrix6d W = soft_selection(ahead, threshold);
+  EXPECT_TRUE((W.transpose() * seen_from(offset, H) * W).isApprox(seen_from(offset, selected), 1e-4));
+}
+
+TEST(Degeneracy, TheCentreIsWhereRotationsAreSeenLeast) {
+  const Matrix6d H = hessian_of_planes({kX, kY, -kZ}, 2.0);
+  const PoseDegeneracy d = analyse_degeneracy(H);
+  const auto trace_at = [&](const Eigen::Vector3d& centre) {
+    PoseDegeneracy about;
+    about.centre_m = centre;
+    return (about.to_sensor().transpose() * H * about.to_sensor()).topLeftCorner<3, 3>().trace();
+  };
+  for (const Eigen::Vector3d& axis : {kX, kY, kZ}) {
+    EXPECT_LT(trace_at(d.centre_m), trace_at(d.centre_m + 0.1 * axis));
+    EXPECT_LT(trace_at(d.centre_m), trace_at(d.centre_m - 0.1 * axis));
+  }
+}
+
 TEST(Degeneracy, NoInformationOrNoNumbersGiveZeros) {
   Matrix6d broken = Matrix6d::Identity();
   broken(0, 1) = std::nan("");
@@ -181,18 +219,16 @@ TEST(SoftSelection, KeepsTheShareOfEachEigenvalue) {
   const PoseDegeneracy d = analyse_degeneracy(H);
   const double threshold = d.relative_eigenvalues[1];
   const Matrix6d W = soft_selection(d, threshold);
-  Vector6d scale = Vector6d::Ones();
-  scale.head<3>().setConstant(1.0 / d.lever_arm_m);
-  const Matrix6d before = d.directions.transpose() * scale.asDiagonal() * H * scale.asDiagonal() * d.directions;
-  const Matrix6d after =
-      d.directions.transpose() * scale.asDiagonal() * W.transpose() * H * W * scale.asDiagonal() * d.directions;
+  const Matrix6d moves = d.to_sensor() * d.directions;  // of the sensor
+  const Matrix6d before = moves.transpose() * H * moves;
+  const Matrix6d after = moves.transpose() * W.transpose() * H * W * moves;
   for (Eigen::Index i = 0; i < 6; ++i) {
     const double r = std::pow(std::max(0.0, 2.0 * d.relative_eigenvalues[i] / threshold - 1.0), 4);
     EXPECT_NEAR(after(i, i) / before(i, i), r / (1.0 + r), 1e-9) << i;
   }
   EXPECT_NEAR(after(1, 1) / before(1, 1), 0.5, 1e-9);
   const Matrix6d none = soft_selection(d, 2.0 * d.relative_eigenvalues[0]);
-  EXPECT_NEAR((none * scale.asDiagonal() * d.directions.col(0)).norm(), 0.0, 1e-9) << "half of the threshold";
+  EXPECT_NEAR((none * moves.col(0)).norm(), 0.0, 1e-9) << "half of the threshold";
   EXPECT_TRUE((W.transpose() * H * W).isApprox((W.transpose() * H * W).transpose(), 1e-12));
 }
 

@@ -23,7 +23,8 @@ bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig
     return false;  // along a road with little to hold on to it fits metres off, too
   }
   const double expected = (evidence.young_map ? kYoungShare : 1.0) * evidence.usual_score;
-  return evidence.score >= std::max(config.least_score, config.lost_share * expected);
+  const double least = evidence.established ? 0.0 : config.least_score;
+  return evidence.score >= std::max(least, config.lost_share * expected);
 }
 
 OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {

@@ -51,6 +51,16 @@ TEST(Judging, TheFloorDoesNotDependOnWhatWasLearnt) {
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
 }
 
+TEST(Judging, TheFloorIsForMapsThatMayBeWrongThemselves) {
+  Evidence e = evidence(0.1);
+  e.usual_score = 0.12;  // in heavy snow, with the right pose on a map that began in less of it
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
+  e.established = true;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
+  e.score = 0.07;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
+}
+
 TEST(Judging, OneIterationIsNoFailureAndASingularSystemIs) {
   IcpResult icp = registered(IcpTermination::kIterationLimit);
   icp.iterations = 1;

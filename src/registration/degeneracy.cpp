@@ -68,7 +68,7 @@ Matrix6d soft_selection(const PoseDegeneracy& degeneracy, double threshold) {
   // W is applied from both sides, so that it carries the square root of the share.
   const Vector6d share = (power / (power + std::pow(half, 4))).sqrt();
   const Matrix6d& V = degeneracy.directions;
-  // V S Vᵀ acts on perturbations in metres about the centre.
+  // The shares act on perturbations in metres about the centre.
   const Matrix6d S = degeneracy.to_sensor();
   return S * V * share.asDiagonal() * V.transpose() * S.inverse();
 }

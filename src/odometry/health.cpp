@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "odometry/sweep_map.hpp"
+
 namespace rilo {
 
 namespace {
@@ -22,8 +24,10 @@ bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig
   if (evidence.second_sweep && (icp.frozen || is_degenerate(icp, config))) {
     return false;  // along a road with little to hold on to it fits metres off, too
   }
-  const double expected = (evidence.young_map ? kYoungShare : 1.0) * evidence.usual_score;
-  const double least = evidence.established ? 0.0 : config.least_score;
+  const bool established = evidence.map_sweeps >= kEstablishedSweeps;
+  const bool young = evidence.map_sweeps > 1 && !established;
+  const double expected = (young ? kYoungShare : 1.0) * evidence.usual_score;
+  const double least = established ? 0.0 : config.least_score;
   return evidence.score >= std::max(least, config.lost_share * expected);
 }
 

@@ -13,8 +13,7 @@ struct Evidence {
   double score = 0;             ///< map score at the registered pose
   double usual_score = 0;       ///< of the sweeps before; 0: unknown
   bool was_lost = false;        ///< the sweep before was lost
-  bool young_map = false;       ///< the map has few sweeps: it explains less than usual
-  bool established = false;     ///< it has enough for the usual score to be that of right poses
+  std::size_t map_sweeps = 0;   ///< in the map: few explain less than usual, and it may itself be wrong
   bool shrunk = false;          ///< the place is much smaller than one sweep before: something covers the sensor
   bool cut_off = false;         ///< the registration ran out of time far from its end
   bool possible_motion = true;  ///< a sensor can have moved to the pose

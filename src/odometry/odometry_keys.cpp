@@ -145,7 +145,7 @@ void add_icp(KeyVisitor& keys, AdaptiveIcpConfig& c) {
   keys.real({"independent_share", "", "share of the residuals that count as independent", "experiment: open field"},
             c.independent_share, 1e-6, 1);
   keys.real({"weak_direction", "", "relative eigenvalue at which half of a direction is left to the prior; 0: off",
-             "experiment: wider planes"},
+             "experiment: weak directions"},
             c.weak_direction, 0, 1);
 }
 
@@ -209,7 +209,7 @@ void add_health(KeyVisitor& keys, HealthConfig& c) {
   keys.real({"few_inlier_ratio", "", "below this ratio of correspondences to source points they are few", kNotTuned},
             c.few_inlier_ratio, 0, 1);
   keys.real({"degenerate_ratio", "", "a direction with a smaller relative eigenvalue is not constrained",
-             "experiment: wider planes"},
+             "experiment: weak directions"},
             c.degenerate_ratio, 0, 1);
 }
 

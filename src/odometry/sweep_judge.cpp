@@ -23,8 +23,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.score = registration.score;
   evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
   evidence.ambiguous = registration.ambiguous;
-  evidence.established = before.map_sweeps >= kEstablishedSweeps;
-  evidence.young_map = before.map_sweeps > 1 && !evidence.established;
+  evidence.map_sweeps = before.map_sweeps;
   evidence.usual_score = before.usual_score;
   evidence.was_lost = before.was_lost;
   evidence.shrunk = prepared.median_range_m < kShrunk * median_range_m_;

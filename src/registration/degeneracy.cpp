@@ -21,9 +21,8 @@ Eigen::Vector3d centre_of(const Matrix6d& H) {
 }  // namespace
 
 Matrix6d PoseDegeneracy::to_sensor() const {
-  Matrix6d S = Matrix6d::Identity();
-  S.topLeftCorner<3, 3>() /= lever_arm_m;
-  S.bottomLeftCorner<3, 3>() = hat(centre_m) / lever_arm_m;
+  Matrix6d S = adjoint(SE3(Eigen::Translation3d(centre_m)));
+  S.leftCols<3>() /= lever_arm_m;
   return S;
 }
 

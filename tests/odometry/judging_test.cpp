@@ -3,6 +3,7 @@
 
 #include "odometry/health.hpp"
 #include "odometry/sweep_judge.hpp"
+#include "odometry/sweep_map.hpp"
 
 namespace rilo {
 namespace {
@@ -21,10 +22,11 @@ Evidence evidence(double score) {
   e.source_points = 1000;
   e.score = score;
   e.usual_score = 0.8;
+  e.map_sweeps = kEstablishedSweeps;
   return e;
 }
 
-const HealthConfig kHealth;  // 0.65 of the usual score, never below 0.17
+const HealthConfig kHealth;  // 0.65 of the usual score, in a young map never below 0.17
 
 TEST(Judging, TheScoreMustBeNearTheUsualOne) {
   Evidence e = evidence(0.53);
@@ -36,15 +38,17 @@ TEST(Judging, TheScoreMustBeNearTheUsualOne) {
 
 TEST(Judging, AYoungMapExplainsHalf) {
   Evidence e = evidence(0.27);
-  e.young_map = true;
+  e.map_sweeps = kEstablishedSweeps - 1;
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
 }
 
 TEST(Judging, TheFloorDoesNotDependOnWhatWasLearnt) {
   Evidence e = evidence(0.165);
+  e.map_sweeps = kEstablishedSweeps - 1;
   e.usual_score = 0.165;  // learnt from sweeps as bad as this: wrong ones among moving cars
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
   e.usual_score = 0;
+  e.map_sweeps = 1;
   e.second_sweep = true;
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
   e.score = 0.186;  // the least of 124 right second sweeps
@@ -54,8 +58,11 @@ TEST(Judging, TheFloorDoesNotDependOnWhatWasLearnt) {
 TEST(Judging, TheFloorIsForMapsThatMayBeWrongThemselves) {
   Evidence e = evidence(0.1);
   e.usual_score = 0.12;  // in heavy snow, with the right pose on a map that began in less of it
-  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
-  e.established = true;
+  for (const std::size_t few : {std::size_t{1}, kEstablishedSweeps - 1}) {
+    e.map_sweeps = few;
+    EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost) << few;
+  }
+  e.map_sweeps = kEstablishedSweeps;
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
   e.score = 0.07;
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);

@@ -151,8 +151,7 @@ TEST(Degeneracy, TheLeverMakesItIndependentOfScaleAndWeight) {
 
 /// Information about a sensor that sits at `offset` from where `H` is about, with the same axes.
 Matrix6d seen_from(const Eigen::Vector3d& offset, const Matrix6d& H) {
-  Matrix6d S = Matrix6d::Identity();
-  S.bottomLeftCorner<3, 3>() = hat(offset);
+  const Matrix6d S = adjoint(SE3(Eigen::Translation3d(offset)));
   return S.transpose() * H * S;
 }
 

@@ -6,10 +6,6 @@
 
 namespace rilo {
 
-namespace {
-constexpr double kYoungShare = 0.5;  // of the usual score, that a map of a few sweeps reaches
-}  // namespace
-
 bool is_degenerate(const IcpResult& icp, const HealthConfig& config) {
   return icp.degeneracy.relative_eigenvalues[0] < config.degenerate_ratio;
 }
@@ -25,10 +21,8 @@ bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig
     return false;  // along a road with little to hold on to it fits metres off, too
   }
   const bool established = evidence.map_sweeps >= kEstablishedSweeps;
-  const bool young = evidence.map_sweeps > 1 && !established;
-  const double expected = (young ? kYoungShare : 1.0) * evidence.usual_score;
   const double least = established ? 0.0 : config.least_score;
-  return evidence.score >= std::max(least, config.lost_share * expected);
+  return evidence.score >= std::max(least, config.lost_share * evidence.usual_score);
 }
 
 OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {

@@ -114,13 +114,16 @@ std::vector<MotionState> SecondSweep::other_starts(const Registration& found) co
   const TimedCloud sample = every_nth(parts_.prepared.source, kSparseStride);
   const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
   const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
-  std::vector<MotionState> places;
+  // The result first, which the others are compared with; it takes the place of the one beside it.
+  std::vector<MotionState> places = {{found.icp.state.T_odom_lidar, found.first->twist}};
   const double reach_m = std::min(kMostSpeed * parts_.tracker.since_trusted_s(), kReachM);
   const auto steps = static_cast<int>(std::lround(reach_m / kStepM));
   for (int k = -steps; k <= steps; ++k) {
     SE3 place = parts_.tracker.trusted().T_odom_lidar;
     place.translation() += k * kStepM * weakest;
-    places.push_back({place, parts_.tracker.implied_twist(place)});
+    if ((place.translation() - found.icp.state.T_odom_lidar.translation()).norm() > 0.5 * kStepM) {
+      places.push_back({place, parts_.tracker.implied_twist(place)});
+    }
   }
   std::vector<SampleFit> fits(places.size());
   for_each_index(places.size(), [&](std::size_t i) {
@@ -128,11 +131,8 @@ std::vector<MotionState> SecondSweep::other_starts(const Registration& found) co
       fits[i] = search_.fit_of(sample, places[i], or_present(of_first_sweep(first_, places[i].twist)), parts_.deadline);
     }
   });
-  double least = 0.0;
-  if (settled(found.icp) && !parts_.deadline.passed_after(parts_.first_map_ms)) {
-    const std::optional<LocalMap> map = of_first_sweep(first_, found.first->twist);
-    least = kWorthTrying * search_.fit_of(sample, found.icp.state, or_present(map), parts_.deadline).quality;
-  }
+  const double least = settled(found.icp) ? kWorthTrying * fits.front().quality : 0.0;
+  fits.erase(fits.begin());
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SampleFit& a, const SampleFit& b) { return a.quality > b.quality; });
   std::vector<MotionState> starts = {found.icp.state};

@@ -10,6 +10,7 @@
 #include "cloud/elevation.hpp"
 #include "cloud/fixed_chunks.hpp"
 #include "cloud/point_block.hpp"
+#include "geometry/median.hpp"
 
 namespace rilo {
 
@@ -83,9 +84,7 @@ void Preprocessor::update_scene_range() {
   for (const Eigen::Vector3f& p : prepared_.source.points) {
     ranges_.push_back(p.squaredNorm());
   }
-  const auto middle = ranges_.begin() + static_cast<std::ptrdiff_t>(ranges_.size() / 2);
-  std::nth_element(ranges_.begin(), middle, ranges_.end());
-  const double median = std::sqrt(static_cast<double>(*middle));
+  const double median = std::sqrt(static_cast<double>(upper_median(std::span(ranges_))));
   prepared_.median_range_m = median;
   double& scene = prepared_.scene_range_m;
   scene = scene > 0.0 ? scene + kSceneSmoothing * (median - scene) : median;

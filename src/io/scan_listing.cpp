@@ -1,12 +1,13 @@
 #include "io/scan_listing.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/median.hpp"
 #include "io/file_bytes.hpp"
 #include "io/stamp_difference.hpp"
 #include "io/stamp_list.hpp"
@@ -109,9 +110,7 @@ std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps) {
     }
   }
   if (gaps.empty()) return std::nullopt;
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return *middle;
+  return upper_median(std::span(gaps));
 }
 
 void note_bad_sweep(const IoError& error, SourceInfo& info) {

@@ -201,9 +201,9 @@ void add_health(KeyVisitor& keys, HealthConfig& c) {
   keys.section("health", "When a pose is degenerate, poorly supported or lost");
   keys.integer({"restart_after", "sweeps", "lost for this long, a new map starts at the predicted pose"},
                c.restart_after, 1, 1000000);
-  keys.real({"lost_share", "", "lost when the map score falls below this share of the usual one",
-             "experiment: 384 pairs"},
-            c.lost_share, 0, 1);
+  keys.real(
+      {"lost_share", "", "lost when the map score falls below this share of the usual one", "experiment: 384 pairs"},
+      c.lost_share, 0, 1);
   keys.real({"least_score", "", "second and third sweep of a map: lost below it", "experiment: a jam"}, c.least_score,
             0, 1);
   keys.real({"few_inlier_ratio", "", "below this ratio of correspondences to source points they are few", kNotTuned},

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "cloud/fixed_chunks.hpp"
 #include "cloud/thinning.hpp"
+#include "geometry/median.hpp"
 #include "odometry/health.hpp"
 #include "odometry/optimum.hpp"
 #include "registration/plane_residuals.hpp"
@@ -48,12 +50,6 @@ double over_surroundings(const std::vector<SampleFit>& fits, std::size_t k) {
   return sum > 0.0 ? sides * at->quality / sum : 1.0;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Quality itself falls with the overlap with the map, and along a motorway it differs by a few per cent only: compared
 /// is how far it exceeds that of the surroundings.
 PathProfile profile_of(const std::vector<SampleFit>& fits, const Registration& found) {
@@ -70,7 +66,7 @@ PathProfile profile_of(const std::vector<SampleFit>& fits, const Registration& f
       profile.best = k;
     }
   }
-  profile.noise = median(off);
+  profile.noise = upper_median(std::span(off));
   return profile;
 }
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
+
+#include "geometry/median.hpp"
 
 namespace rilo {
 
@@ -53,9 +56,7 @@ std::int64_t SweepClock::period_ns() const {
   }
   const std::size_t known = std::min(count_, kRemembered);
   std::array<std::int64_t, kRemembered> sorted = steps_;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(known / 2);
-  std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(known));
-  return *middle;
+  return upper_median(std::span(sorted).first(known));
 }
 
 void SweepClock::remember(std::int64_t step_ns) { steps_[count_++ % kRemembered] = step_ns; }

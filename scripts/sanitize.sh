@@ -4,7 +4,8 @@
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-scripts/setup.sh --clang
+preset=${PRESET:-asan}
+if [[ $preset == tsan ]]; then scripts/setup.sh; else scripts/setup.sh --clang; fi
 read -ra targets <<<"${TARGETS:-}"
-build_preset "${PRESET:-asan}" ${targets[@]:+--target "${targets[@]}"}
-ctest --preset "${PRESET:-asan}" --parallel "$JOBS" "$@"
+build_preset "$preset" ${targets[@]:+--target "${targets[@]}"}
+ctest --preset "$preset" --parallel "$JOBS" "$@"

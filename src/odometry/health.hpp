@@ -13,7 +13,7 @@ struct Evidence {
   double score = 0;             ///< map score at the registered pose
   double usual_score = 0;       ///< of the sweeps before; 0: unknown
   bool was_lost = false;        ///< the sweep before was lost
-  std::size_t map_sweeps = 0;   ///< in the map: few explain less than usual, and it may itself be wrong
+  std::size_t map_sweeps = 0;   ///< in the map: while they are few, it may itself be wrong
   bool shrunk = false;          ///< the place is much smaller than one sweep before: something covers the sensor
   bool cut_off = false;         ///< the registration ran out of time far from its end
   bool possible_motion = true;  ///< a sensor can have moved to the pose

@@ -132,7 +132,6 @@ std::vector<MotionState> SecondSweep::other_starts(const Registration& found) co
     }
   });
   const double least = settled(found.icp) ? kWorthTrying * fits.front().quality : 0.0;
-  fits.erase(fits.begin());
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SampleFit& a, const SampleFit& b) { return a.quality > b.quality; });
   std::vector<MotionState> starts = {found.icp.state};

@@ -35,7 +35,7 @@ Matrix6d acceleration_density(const MotionPriorConfig& config) {
   return density.asDiagonal();
 }
 
-MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s,
+MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, const TimeStep& step,
                          const MotionPriorConfig& config) {
   MotionPrior prior;
   prior.state = predicted;
@@ -44,10 +44,14 @@ MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_
   }
   const Matrix6d Q = acceleration_density(config);
   const Matrix6d& V = velocity_covariance;
+  const double dt_s = step.s;
   const double lag_s = std::abs(dt_s);  // a random walk is one backwards, too
   const double dt2 = dt_s * dt_s;
+  const Eigen::Matrix3d R = predicted.T_odom_lidar.linear();
+  Vector6d off;
+  off << step.error_s * R * predicted.twist.head<3>(), step.error_s * R * predicted.twist.tail<3>();
   Matrix12d P;
-  P.topLeftCorner<6, 6>() = dt2 * V + dt2 * lag_s / 3.0 * Q;
+  P.topLeftCorner<6, 6>() = dt2 * V + dt2 * lag_s / 3.0 * Q + off * off.transpose();
   P.topRightCorner<6, 6>() = dt_s * V + dt_s * lag_s / 2.0 * Q;
   P.bottomLeftCorner<6, 6>() = P.topRightCorner<6, 6>().transpose();
   P.bottomRightCorner<6, 6>() = V + lag_s * Q;

@@ -12,11 +12,17 @@ Matrix6d unknown_velocity_covariance();
 /// Power density Q of the acceleration, white noise ([rad/s²; m/s²] squared times s).
 Matrix6d acceleration_density(const MotionPriorConfig& config);
 
-/// Prior of pose and velocity `dt_s` after a pose taken as certain (odometry is relative) with the velocity covariance
-/// `velocity_covariance` [rad/s; m/s]; the velocity performs a random walk. `predicted` is the mean. It holds the
-/// directions that a sweep does not constrain, and it ties the velocity during the sweep to the displacement since the
-/// last. `dt_s` < 0: the state so long before. Zero information when off.
-MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s,
+/// Time from one sweep to another.
+struct TimeStep {
+  double s = 0;        ///< < 0: to an earlier one
+  double error_s = 0;  ///< standard deviation
+};
+
+/// Prior of pose and velocity a `step` after a pose taken as certain (odometry is relative) with the velocity
+/// covariance `velocity_covariance` [rad/s; m/s]; the velocity performs a random walk. `predicted` is the mean. It
+/// holds the directions that a sweep does not constrain, and it ties the velocity during the sweep to the displacement
+/// since the last. Zero information when off.
+MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, const TimeStep& step,
                          const MotionPriorConfig& config);
 
 /// Mean of the prior: `last` moved on by `dt_s`. Speed is kept; the turn rate fades within about a second, since

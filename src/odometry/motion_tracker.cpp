@@ -1,10 +1,11 @@
 #include "odometry/motion_tracker.hpp"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 
 #include "odometry/motion_bounds.hpp"
 #include "odometry/motion_prediction.hpp"
-#include "odometry/motion_prior.hpp"
 
 namespace rilo {
 
@@ -17,6 +18,12 @@ Matrix6d velocity_covariance_of(const IcpResult& icp) {
   return covariance.bottomRightCorner<6, 6>();
 }
 }  // namespace
+
+void MotionTracker::advance(const SweepTime& time) {
+  const std::int64_t deviation_ns = time.step_ns - time.even_ns;
+  deviation_ns_ += deviation_ns;
+  now_ns_ += time.even_ns + std::llround(stamp_trust_.share() * static_cast<double>(deviation_ns));
+}
 
 MotionState MotionTracker::predicted(double sigma_th_m) const {
   MotionState state{predict_pose(past_, now_ns_, sigma_th_m, prediction_config_), trusted_state_.twist};
@@ -43,29 +50,36 @@ Vector6d MotionTracker::implied_twist(const SE3& T_odom_lidar) const {
   return se3_log(motion) / dt_s;
 }
 
-MotionPrior MotionTracker::prior(const std::optional<MotionState>& refuted) const {
+MotionPriorConfig MotionTracker::expected_prior() const {
   MotionPriorConfig config = turn_noise_.expected();
   if (degenerate_) {
     // Where nothing is seen, each sweep makes the prior weaker, and at last the least noise or bias outweighs it.
     config.acceleration_m_s2 *= config.unseen_share;
     config.angular_acceleration_rad_s2 *= config.unseen_share;
   }
-  const double dt_s = since_trusted_s();
+  return config;
+}
+
+MotionPrior MotionTracker::prior(const std::optional<MotionState>& refuted) const {
+  const TimeStep step = since_trusted();
   if (refuted) {
-    return motion_prior(*refuted, unknown_velocity_covariance(), dt_s, config);
+    return motion_prior(*refuted, unknown_velocity_covariance(), step, expected_prior());
   }
-  return motion_prior(expected_motion(trusted_state_, dt_s), velocity_covariance_, dt_s, config);
+  return motion_prior(expected_motion(trusted_state_, step.s), velocity_covariance_, step, expected_prior());
 }
 
 MotionPrior MotionTracker::prior_before(const IcpResult& present) const {
-  const double dt_s = -since_trusted_s();
-  const SE3 T_before = present.state.T_odom_lidar * se3_exp(dt_s * present.state.twist);
-  return motion_prior({T_before, present.state.twist}, velocity_covariance_of(present), dt_s, turn_noise_.expected());
+  TimeStep step = since_trusted();
+  step.s = -step.s;
+  const SE3 T_before = present.state.T_odom_lidar * se3_exp(step.s * present.state.twist);
+  return motion_prior({T_before, present.state.twist}, velocity_covariance_of(present), step, turn_noise_.expected());
 }
 
 MotionVerdict MotionTracker::weigh(const SE3& T_odom_lidar) const {
   const SE3 motion = trusted_state_.T_odom_lidar.inverse() * T_odom_lidar;
-  if (possible_motion(motion, since_trusted_s(), step_, step_s_, bounds_)) {
+  const TimeStep step = since_trusted();
+  // A stamp that may be late refutes nothing.
+  if (possible_motion(motion, step.s + step.error_s, step_, step_s_, bounds_)) {
     return MotionVerdict::kPossible;
   }
   return agrees_with_claim(T_odom_lidar) ? MotionVerdict::kJump : MotionVerdict::kImpossible;
@@ -85,6 +99,7 @@ void MotionTracker::begin(const MotionState& state) {
   state_ = trusted_state_ = state;
   velocity_covariance_ = unknown_velocity_covariance();
   past_ = {{now_ns_, state.T_odom_lidar}};
+  deviation_ns_ = 0;
   step_.reset();
   claim_.reset();
   lost_ = false;
@@ -96,7 +111,10 @@ Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdic
   const Vector6d velocity_before = trusted_state_.twist;
   const SE3 motion = trusted_state_.T_odom_lidar.inverse() * icp.state.T_odom_lidar;
   if (step_ && !lost_ && verdict == MotionVerdict::kPossible) {
-    turn_noise_.learn(expected_motion(trusted_state_, dt_s), velocity_covariance_, dt_s, icp);
+    const MotionState expected = expected_motion(trusted_state_, dt_s);
+    const MotionPrior prior = motion_prior(expected, velocity_covariance_, {dt_s}, expected_prior());
+    turn_noise_.learn(expected, velocity_covariance_, since_trusted(), icp);
+    stamp_trust_.learn(deviation_s(), prior, icp);
   }
   state_ = icp.state;
   state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
@@ -111,6 +129,7 @@ Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdic
     past_ = {{now_ns_ - std::int64_t(step_s * 1e9), state_.T_odom_lidar * step.inverse()}};
   }
   past_.push_back({now_ns_, state_.T_odom_lidar});
+  deviation_ns_ = 0;
   if (past_.size() > kRememberedPoses) {
     past_.erase(past_.begin());
   }

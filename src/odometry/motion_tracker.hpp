@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "odometry/motion_prior.hpp"
+#include "odometry/stamp_trust.hpp"
+#include "odometry/sweep_clock.hpp"
 #include "odometry/turn_noise.hpp"
 #include "registration/adaptive_icp.hpp"
 #include "rilo/geometry/trajectory.hpp"
@@ -26,8 +29,9 @@ class MotionTracker {
                 const MotionBoundsConfig& bounds)
       : prediction_config_(prediction), prior_config_(prior), turn_noise_(prior), bounds_(bounds) {}
 
-  /// The next sweep came so much later than the one before.
-  void advance(std::int64_t step_ns) { now_ns_ += step_ns; }
+  /// The next sweep came so much later than the one before; its deviation from an even clock counts as far as motion
+  /// confirmed those before.
+  void advance(const SweepTime& time);
 
   /// State of the last sweep: registered, or guessed when that failed.
   const MotionState& state() const { return state_; }
@@ -69,14 +73,22 @@ class MotionTracker {
     double step_s = 0;        // ... which was so long ago
   };
   double seconds_since(std::int64_t at_ns) const { return static_cast<double>(now_ns_ - at_ns) * 1e-9; }
+  /// Of the next sweep and the last trusted pose.
+  TimeStep since_trusted() const { return {since_trusted_s(), stamp_trust_.error_s(deviation_s())}; }
+  /// Of the time since the trusted pose by the stamps from that of an even clock.
+  double deviation_s() const { return static_cast<double>(deviation_ns_) * 1e-9; }
+  /// Accelerations to expect now.
+  MotionPriorConfig expected_prior() const;
   bool agrees_with_claim(const SE3& T_odom_lidar) const;
 
   MotionPredictionConfig prediction_config_;
   MotionPriorConfig prior_config_;
   TurnNoise turn_noise_;
   MotionBoundsConfig bounds_;
-  std::int64_t now_ns_ = 0;  // sum of the steps
-  Trajectory past_;          // the last trusted poses, at most three, stamped with now_ns_
+  StampTrust stamp_trust_;
+  std::int64_t now_ns_ = 0;        // sum of the steps, as far as their stamps are believed
+  std::int64_t deviation_ns_ = 0;  // of the stamps since the last trusted pose
+  Trajectory past_;                // the last trusted poses, at most three, stamped with now_ns_
   MotionState state_;
   MotionState trusted_state_;
   Matrix6d velocity_covariance_ = Matrix6d::Identity();  // set where a map begins

@@ -103,7 +103,7 @@ const PreparedSweep& Pipeline::prepare(const SweepView& sweep, SweepResult& resu
   budget_.learn(Work::kPrepare, passes * static_cast<double>(taken.points.size()), result.stats.times.preprocess_ms);
   const SweepTime time = sweep_clock_.advance(prepared.mid_stamp_ns);
   result.stamp_ns = time.stamp_ns;
-  tracker_.advance(time.step_ns);
+  tracker_.advance(time);
   const Fingerprint before = std::exchange(fingerprint_, Fingerprint(sweep.points));
   repeated_ = fingerprint_ == before;
   return prepared;

@@ -27,14 +27,15 @@ SweepTime SweepClock::advance(std::int64_t given_ns) {
   if (!begun_) {
     begun_ = true;
     stamp_ns_ = given_ns_ = believed_ns_ = std::min(given_ns, kLatestNs);
-    return {stamp_ns_, 0, true};
+    return {stamp_ns_, 0, 0, true};
   }
   const std::int64_t from_believed = difference(given_ns, believed_ns_) - since_ns_;
   const std::int64_t from_last = difference(given_ns, given_ns_);
   // Until a stamp is in doubt both are the same.
   const bool goes_on = believable(from_believed);
   const bool was_set = !goes_on && believable(from_last);
-  SweepTime time{0, goes_on ? from_believed : was_set ? from_last : period_ns(), goes_on || was_set};
+  const std::int64_t step_ns = goes_on ? from_believed : was_set ? from_last : period_ns();
+  SweepTime time{0, step_ns, step_ns, goes_on || was_set};
   time.stamp_ns = stamp_ns_ = std::min(stamp_ns_, kLatestNs) + time.step_ns;
   if (was_set && given_ns > stamp_ns_ && given_ns < kLatestNs) {
     time.stamp_ns = stamp_ns_ = given_ns;  // set forward: the stamps of the poses follow
@@ -42,6 +43,7 @@ SweepTime SweepClock::advance(std::int64_t given_ns) {
   given_ns_ = given_ns;
   if (time.believed) {
     remember(time.step_ns);
+    time.even_ns = last_even_ns();
     believed_ns_ = given_ns;
     since_ns_ = 0;
   } else {
@@ -57,6 +59,22 @@ std::int64_t SweepClock::period_ns() const {
   const std::size_t known = std::min(count_, kRemembered);
   std::array<std::int64_t, kRemembered> sorted = steps_;
   return upper_median(std::span(sorted).first(known));
+}
+
+std::int64_t SweepClock::last_even_ns() const {
+  const std::int64_t period = period_ns();
+  std::int64_t late = 0;  // the stamp after the tick; half of it is taken for an error of the period
+  std::int64_t total = 0;
+  std::int64_t ticks = 0;
+  std::int64_t last = 0;
+  for (std::size_t i = count_ - std::min(count_, kRemembered); i < count_; ++i) {
+    const std::int64_t step = steps_[i % kRemembered];
+    last = std::max<std::int64_t>(1, (late + step + period / 2) / period);
+    late = (late + step - last * period) / 2;
+    total += step;
+    ticks += last;
+  }
+  return last * total / ticks;
 }
 
 void SweepClock::remember(std::int64_t step_ns) { steps_[count_++ % kRemembered] = step_ns; }

@@ -11,6 +11,7 @@ namespace rilo {
 struct SweepTime {
   std::int64_t stamp_ns = 0;  ///< of the pose; increases from sweep to sweep
   std::int64_t step_ns = 0;   ///< time since the sweep before, > 0; 0 for the first
+  std::int64_t even_ns = 0;   ///< the same for a sensor that spins evenly: a whole number of mean periods
   bool believed = true;       ///< false: the stamp could not be used, the step is a guess of one period
 };
 
@@ -27,9 +28,11 @@ class SweepClock {
   void reset() { *this = {}; }
 
  private:
-  static constexpr std::size_t kRemembered = 9;  // steps: odd, and a few drops among them do not move their median
+  static constexpr std::size_t kRemembered = 32;  // steps: a few drops among them do not move their median
 
   void remember(std::int64_t step_ns);
+  /// The last one of the remembered steps, if they were even.
+  std::int64_t last_even_ns() const;
 
   bool begun_ = false;
   std::int64_t stamp_ns_ = 0;     // of the last pose

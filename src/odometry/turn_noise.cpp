@@ -5,8 +5,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "odometry/motion_prior.hpp"
-
 namespace rilo {
 
 namespace {
@@ -24,14 +22,15 @@ MotionPriorConfig TurnNoise::expected() const {
   return config_.learn ? scaled(config_, squares_.cwiseMax(1.0)) : config_;
 }
 
-void TurnNoise::learn(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s,
+void TurnNoise::learn(const MotionState& predicted, const Matrix6d& velocity_covariance, const TimeStep& step,
                       const IcpResult& icp) {
   if (!config_.enabled || !config_.learn) {
     return;
   }
   const MotionPriorConfig known = scaled(config_, squares_);
-  const MotionPrior prior = motion_prior(predicted, velocity_covariance, dt_s, known);
+  const MotionPrior prior = motion_prior(predicted, velocity_covariance, step, known);
   // The change of velocity and the error of the prior have one cause: change = gain · error, on average.
+  const double dt_s = step.s;
   const Matrix6d Q = acceleration_density(known);
   Eigen::Matrix<double, 6, 12> covariance;
   covariance << 0.5 * dt_s * dt_s * Q, dt_s * Q;

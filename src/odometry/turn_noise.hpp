@@ -1,6 +1,7 @@
 // How abruptly this sensor turns.
 #pragma once
 
+#include "odometry/motion_prior.hpp"
 #include "registration/adaptive_icp.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 
@@ -16,9 +17,10 @@ class TurnNoise {
   /// The configuration with the angular acceleration to expect: at least the configured one.
   MotionPriorConfig expected() const;
 
-  /// Takes a sweep registered `dt_s` (> 0) after the last one; `predicted` and `velocity_covariance` as for
+  /// Takes a sweep registered a `step` (> 0) after the last one; `predicted` and `velocity_covariance` as for
   /// motion_prior().
-  void learn(const MotionState& predicted, const Matrix6d& velocity_covariance, double dt_s, const IcpResult& icp);
+  void learn(const MotionState& predicted, const Matrix6d& velocity_covariance, const TimeStep& step,
+             const IcpResult& icp);
 
  private:
   MotionPriorConfig config_;

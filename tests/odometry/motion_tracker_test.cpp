@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::int64_t kStepNs = 100'000'000;
 
+SweepTime after(std::int64_t step_ns) { return {0, step_ns, step_ns, true}; }
+
 IcpResult at(double x) {
   IcpResult icp;
   icp.state.T_odom_lidar.translation().x() = x;
@@ -21,7 +23,7 @@ MotionTracker driving() {
   MotionTracker tracker({}, {}, {});
   tracker.begin({});
   for (const double x : {1.0, 2.0}) {
-    tracker.advance(kStepNs);
+    tracker.advance(after(kStepNs));
     tracker.accept(at(x), MotionVerdict::kPossible, false);
   }
   return tracker;
@@ -31,39 +33,63 @@ double x_of(const MotionState& state) { return state.T_odom_lidar.translation().
 
 TEST(MotionTracker, LostPosesDoNotEnterThePrediction) {
   MotionTracker tracker = driving();
-  tracker.advance(kStepNs);
+  tracker.advance(after(kStepNs));
   tracker.lose(tracker.predicted(0.3), std::nullopt);
   EXPECT_TRUE(tracker.lost());
   EXPECT_NEAR(x_of(tracker.state()), 3.0, 1e-9);
   EXPECT_NEAR(x_of(tracker.trusted()), 2.0, 1e-9);
-  tracker.advance(kStepNs);
+  tracker.advance(after(kStepNs));
   EXPECT_NEAR(x_of(tracker.predicted(0.3)), 4.0, 1e-9);
 }
 
 TEST(MotionTracker, ASweepAcceleratesFromTheOneBefore) {
   MotionTracker tracker({}, {}, {});
   tracker.begin({});
-  tracker.advance(kStepNs);
+  tracker.advance(after(kStepNs));
   EXPECT_EQ(tracker.predicted(0.3).earlier.lag_s, 0.0) << "the first velocity of a map is a guess";
   tracker.accept(at(1.0), MotionVerdict::kPossible, false);
-  tracker.advance(2 * kStepNs);
+  tracker.advance(after(2 * kStepNs));
   MotionState state = tracker.predicted(0.3);
   EXPECT_EQ(state.motion().acceleration, Vector6d(Vector6d::Zero())) << "as predicted";
   state.twist[3] += 3.0;
   EXPECT_NEAR(state.motion().acceleration[3], 15.0, 1e-9);
   tracker.lose(state, std::nullopt);
-  tracker.advance(kStepNs);
+  tracker.advance(after(kStepNs));
   EXPECT_EQ(tracker.predicted(0.3).earlier.lag_s, 0.0) << "lost";
+}
+
+TEST(MotionTracker, AStampThatMayBeLateRefutesNoMotion) {
+  const SE3 next = at(3.0).state.T_odom_lidar;
+  MotionTracker tracker = driving();
+  tracker.advance({.step_ns = kStepNs / 10, .even_ns = kStepNs / 10});
+  EXPECT_EQ(tracker.weigh(next), MotionVerdict::kImpossible) << "1 m in 10 ms";
+  tracker = driving();
+  tracker.advance({.step_ns = kStepNs / 10, .even_ns = kStepNs});
+  EXPECT_EQ(tracker.weigh(next), MotionVerdict::kPossible);
+}
+
+TEST(MotionTracker, StampsThatMotionContradictsDoNotCount) {
+  MotionTracker tracker = driving();
+  for (int i = 0; i < 20; ++i) {
+    const std::int64_t late_ns = (i % 2 == 0 ? 1 : -1) * kStepNs / 10;
+    tracker.advance({.step_ns = kStepNs + late_ns, .even_ns = kStepNs});
+    IcpResult icp = at(3.0 + i);
+    icp.sweep_information = 1e4 * Matrix12d::Identity();
+    icp.posterior_information = tracker.prior(std::nullopt).information + icp.sweep_information;
+    tracker.accept(icp, MotionVerdict::kPossible, false);
+  }
+  tracker.advance({.step_ns = kStepNs + kStepNs / 10, .even_ns = kStepNs});
+  EXPECT_NEAR(tracker.since_trusted_s(), 0.1, 0.001);
 }
 
 /// Swayed about x, 0.6 rad/s to and fro from sweep to sweep; its prior's information on the turn rate.
 double information_when_swayed(bool lost_between) {
   MotionTracker tracker = driving();
   for (int i = 0; i < 60; ++i) {
-    tracker.advance(kStepNs);
+    tracker.advance(after(kStepNs));
     if (lost_between) {
       tracker.lose(tracker.state(), std::nullopt);
-      tracker.advance(kStepNs);
+      tracker.advance(after(kStepNs));
     }
     IcpResult icp = at(2.0);
     icp.state.twist << (i % 2 == 0 ? 0.3 : -0.3), 0.0, 0.0, 0.0, 0.0, 0.0;
@@ -71,7 +97,7 @@ double information_when_swayed(bool lost_between) {
     icp.sweep_information = icp.posterior_information;
     tracker.accept(icp, MotionVerdict::kPossible, false);
   }
-  tracker.advance(kStepNs);
+  tracker.advance(after(kStepNs));
   return tracker.prior(MotionState{}).information(6, 6);
 }
 
@@ -81,22 +107,22 @@ TEST(MotionTracker, LearnsHowItIsTurnedFromSweepsInARow) {
 
 TEST(MotionTracker, AJumpIsTakenWhenTwoSweepsAgreeAndGivesNoVelocity) {
   MotionTracker tracker = driving();
-  tracker.advance(kStepNs);
+  tracker.advance(after(kStepNs));
   EXPECT_EQ(tracker.weigh(at(9.0).state.T_odom_lidar), MotionVerdict::kImpossible);  // six sweeps are missing
   tracker.lose(tracker.predicted(0.3), at(9.0).state.T_odom_lidar);
-  tracker.advance(kStepNs);
+  tracker.advance(after(kStepNs));
   EXPECT_NEAR(x_of(*tracker.predicted_from_claim()), 10.0, 1e-9);
   EXPECT_EQ(tracker.weigh(at(10.0).state.T_odom_lidar), MotionVerdict::kJump);
   EXPECT_EQ(tracker.weigh(at(14.0).state.T_odom_lidar), MotionVerdict::kImpossible);
   tracker.accept(at(10.0), MotionVerdict::kJump, false);
   EXPECT_FALSE(tracker.lost());
-  tracker.advance(kStepNs);
+  tracker.advance(after(kStepNs));
   EXPECT_NEAR(x_of(tracker.predicted(0.3)), 11.0, 1e-6);
 }
 
 TEST(MotionTracker, AnImpossibleMotionImpliesNoVelocity) {
   MotionTracker tracker = driving();
-  tracker.advance(kStepNs);
+  tracker.advance(after(kStepNs));
   EXPECT_NEAR(tracker.implied_twist(at(3.2).state.T_odom_lidar)[3], 12.0, 1e-9);
   EXPECT_NEAR(tracker.implied_twist(at(9.0).state.T_odom_lidar)[3], 10.0, 1e-9);
 }

@@ -50,6 +50,58 @@ TEST(SweepClock, AClockThatWasSetBackKeepsStampsIncreasing) {
   EXPECT_EQ(last, 50'500 * kMs);  // a period for the jump, then 110 and 90 ms
 }
 
+std::vector<std::int64_t> even_ms(SweepClock& clock, const std::vector<std::int64_t>& stamps_ms) {
+  std::vector<std::int64_t> steps;
+  for (const std::int64_t stamp : stamps_ms) {
+    steps.push_back((clock.advance(stamp * kMs).even_ns + kMs / 2) / kMs);
+  }
+  return steps;
+}
+
+TEST(SweepClock, EvenStampsAreThoseOfAnEvenClock) {
+  SweepClock clock;
+  EXPECT_EQ(even_ms(clock, {0, 100, 200, 500, 600, 800}), (std::vector<std::int64_t>{0, 100, 100, 300, 100, 200}));
+}
+
+TEST(SweepClock, AnEvenClockTicksOnUnderLateStamps) {
+  SweepClock clock;
+  std::vector<std::int64_t> stamps;
+  for (std::int64_t i = 0; i < 60; ++i) {
+    stamps.push_back(100 * i + (7 * i) % 13);  // 0 to 12 ms late
+  }
+  for (const std::int64_t late : {40, 20, 0}) {
+    stamps.push_back(100 * static_cast<std::int64_t>(stamps.size()) + late);
+  }
+  const std::vector<std::int64_t> even = even_ms(clock, stamps);
+  for (std::size_t i = 20; i < 60; ++i) {
+    EXPECT_NEAR(static_cast<double>(even[i]), 100.0, 1.0) << i;
+  }
+  for (std::size_t i = 60; i < even.size(); ++i) {
+    EXPECT_NEAR(static_cast<double>(even[i]), 100.0, 3.0) << i;  // steps of 140, 80 and 80 ms
+  }
+}
+
+TEST(SweepClock, PairsOfStampsAreSweepsInARow) {
+  SweepClock clock;
+  std::vector<std::int64_t> stamps;
+  for (std::int64_t i = 0; i < 64; ++i) {
+    stamps.push_back(100 * i + (i % 2 == 0 ? 90 : 0));  // 10 and 190 ms apart
+  }
+  const std::vector<std::int64_t> even = even_ms(clock, stamps);
+  for (std::size_t i = 40; i < even.size(); ++i) {
+    EXPECT_NEAR(static_cast<double>(even[i]), 100.0, 5.0) << i;
+  }
+}
+
+TEST(SweepClock, AnotherPeriodIsFollowed) {
+  SweepClock clock;
+  std::vector<std::int64_t> stamps = {0};
+  for (std::int64_t i = 1; i < 100; ++i) {
+    stamps.push_back(stamps.back() + (i < 40 ? 100 : 50));
+  }
+  EXPECT_EQ(even_ms(clock, stamps).back(), 50);
+}
+
 TEST(SweepClock, ExtremeStampsDoNotOverflow) {
   constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
@@ -58,6 +110,8 @@ TEST(SweepClock, ExtremeStampsDoNotOverflow) {
     const SweepTime time = clock.advance(stamp);
     EXPECT_GE(time.step_ns, 0);
     EXPECT_LE(time.step_ns, 10'000 * kMs);
+    EXPECT_GE(time.even_ns, 0);
+    EXPECT_LE(time.even_ns, 320'000 * kMs);
   }
 }
 

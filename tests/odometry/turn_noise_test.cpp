@@ -28,7 +28,7 @@ IcpResult seen(double acceleration) {
 /// `sweeps` more, turning to and fro.
 void sway(TurnNoise& noise, double acceleration, int sweeps) {
   for (int i = 0; i < sweeps; ++i) {
-    noise.learn({}, 1e-12 * Matrix6d::Identity(), kDt, seen(i % 2 == 0 ? acceleration : -acceleration));
+    noise.learn({}, 1e-12 * Matrix6d::Identity(), {kDt}, seen(i % 2 == 0 ? acceleration : -acceleration));
   }
 }
 
@@ -59,7 +59,7 @@ TEST(TurnNoise, NothingIsLearntWhereNothingIsSeen) {
   sway(noise, 6.0, 200);
   const double before = expected(noise);
   for (int i = 0; i < 100; ++i) {
-    noise.learn({}, 0.01 * Matrix6d::Identity(), kDt, IcpResult{});
+    noise.learn({}, 0.01 * Matrix6d::Identity(), {kDt}, IcpResult{});
   }
   EXPECT_NEAR(expected(noise), before, 1e-9);
 }
@@ -73,11 +73,11 @@ TEST(TurnNoise, NoiseOfTheSweepIsNotTakenForMotion) {
     off.head<3>().setConstant(i % 2 == 0 ? 0.02 : -0.02);
     IcpResult icp;
     icp.sweep_information.diagonal().head<3>().setConstant(1.0 / (0.02 * 0.02));
-    const MotionPrior prior = motion_prior({}, 1e-4 * Matrix6d::Identity(), kDt, noise.expected());
+    const MotionPrior prior = motion_prior({}, 1e-4 * Matrix6d::Identity(), {kDt}, noise.expected());
     const Vector12d mean =
         (prior.information + icp.sweep_information).ldlt().solve((icp.sweep_information * off).eval());
     icp.state = perturbed({}, mean);
-    noise.learn({}, 1e-4 * Matrix6d::Identity(), kDt, icp);
+    noise.learn({}, 1e-4 * Matrix6d::Identity(), {kDt}, icp);
   }
   EXPECT_LT(expected(noise), 1.1 * kConfigured);
 }

@@ -1,6 +1,7 @@
 #include "io/scan_listing.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -102,15 +103,17 @@ void make_a_drive_of(ScanListing& listing, const fs::path& folder, const SourceO
 
 }  // namespace
 
-std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps) {
-  std::vector<double> gaps;
+std::optional<double> mean_period_s(const std::vector<std::int64_t>& stamps) {
+  std::vector<double> steps;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
     if (stamps[i] > stamps[i - 1]) {
-      gaps.push_back(static_cast<double>(stamp_difference(stamps[i], stamps[i - 1])) * 1e-9);
+      steps.push_back(static_cast<double>(stamp_difference(stamps[i], stamps[i - 1])) * 1e-9);
     }
   }
-  if (gaps.empty()) return std::nullopt;
-  return upper_median(std::span(gaps));
+  if (steps.empty()) return std::nullopt;
+  const double median = upper_median(std::span(steps));
+  std::erase_if(steps, [median](double step) { return std::abs(step - median) > 0.5 * median; });
+  return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
 }
 
 void note_bad_sweep(const IoError& error, SourceInfo& info) {
@@ -140,7 +143,7 @@ void start_listing(ScanListing& listing, const char* kind, const fs::path& path,
 void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const SourceOptions& options) {
   if (!stamps.empty()) {
     listing.stamps_ns = std::move(stamps);
-    if (const auto gap = median_gap_s(listing.stamps_ns)) {
+    if (const auto gap = mean_period_s(listing.stamps_ns)) {
       listing.info.period_s = *gap;
       listing.period_known = true;
     } else {

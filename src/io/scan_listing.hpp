@@ -68,8 +68,9 @@ std::vector<std::filesystem::path> files_with(const std::filesystem::path& folde
 /// and the stamps increase.
 std::vector<std::int64_t> stamps_from_names(const std::vector<std::filesystem::path>& files);
 
-/// Median of the steps that move forward, in s; nothing when there are none.
-std::optional<double> median_gap_s(const std::vector<std::int64_t>& stamps);
+/// Mean of the steps that move forward, in s, without gaps and bursts, which are off by more than half of the median
+/// step: the median alone is a whole number of 10 ms where stamps are rounded to that. Nothing when there are none.
+std::optional<double> mean_period_s(const std::vector<std::int64_t>& stamps);
 
 /// Counts a skipped sweep (OnBadSweep::kSkip); the first ones are warnings of their own.
 void note_bad_sweep(const IoError& error, SourceInfo& info);

@@ -61,7 +61,7 @@ void fill_record(const RunMetrics& metrics, RunRecord& run) {
 double period_of(const RunRecord& run) {
   std::vector<std::int64_t> stamps;
   for (const SweepResult& result : run.results) stamps.push_back(result.stamp_ns);
-  return detail::median_gap_s(stamps).value_or(run.source.period_s);
+  return detail::mean_period_s(stamps).value_or(run.source.period_s);
 }
 
 /// The configuration decides one line of the report; one of another version is not a reason to refuse the run.

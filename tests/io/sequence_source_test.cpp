@@ -71,6 +71,18 @@ TEST(SequenceSourceTest, StampsOutOfOrderAndGapsAreReported) {
   EXPECT_TRUE(has_warning(info, "a gap of 0.400 s before it (3 missing)"));
 }
 
+// As of KITTI raw where the stamps are rounded to 10 ms: steps of 0.1 s, and now and then of 0.11 s.
+TEST(SequenceSourceTest, ThePeriodOfRoundedStampsIsTheirMean) {
+  const TempDir folder;
+  std::string stamps;
+  for (const char* stamp : {"0", "0.10", "0.21", "0.31", "0.41", "0.52", "0.62", "0.72", "1.85", "1.86"}) {
+    stamps += std::string(stamp) + "\n";
+  }
+  write_sequence(folder, 10, stamps.c_str());
+  const auto source = open_scan_source(folder.path());
+  EXPECT_NEAR(source->info().period_s, 0.72 / 7, 1e-9);  // without the gap and the burst behind it
+}
+
 TEST(SequenceSourceTest, SequenceErrors) {
   const TempDir folder;
   write_sequence(folder, 3, "0\n0.1\n");

@@ -118,10 +118,10 @@ class RecordingSource final : public ScanSource {
       info_.frame_id = cloud.frame_id;
     }
     recording_->select(topic_);
-    const auto gap_s = median_gap_s(stamps);
-    info_.period_s = gap_s.value_or(1 / options_.assumed_rate_hz);
+    const auto period_s = mean_period_s(stamps);
+    info_.period_s = period_s.value_or(1 / options_.assumed_rate_hz);
     PointTimeHints hints = hints_of(topic_, options_);
-    hints.period_s = gap_s;
+    hints.period_s = period_s;
     hints.assumed_period_s = info_.period_s;
     timing_.emplace(options_, hints, info_.period_s);
     timing_->promise(promised);

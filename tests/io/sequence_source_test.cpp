@@ -78,7 +78,7 @@ TEST(SequenceSourceTest, ThePeriodOfRoundedStampsIsTheirMean) {
   for (const char* stamp : {"0", "0.10", "0.21", "0.31", "0.41", "0.52", "0.62", "0.72", "1.85", "1.86"}) {
     stamps += std::string(stamp) + "\n";
   }
-  write_sequence(folder, 10, stamps.c_str());
+  write_sequence(folder, 10, stamps);
   const auto source = open_scan_source(folder.path());
   EXPECT_NEAR(source->info().period_s, 0.72 / 7, 1e-9);  // without the gap and the burst behind it
 }

@@ -1,7 +1,10 @@
 // rilo info: what a data set holds.
 #include <algorithm>
+#include <bitset>
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -33,6 +36,10 @@ struct InfoFlags {
 
 constexpr std::size_t kSweepsLookedAt = 50;  // sweeps whose points are read, spread evenly over the data by skipping
 
+constexpr std::size_t kSectors = 36;        // of 10°
+constexpr double kPartOfRevolution = 0.75;  // of the directions of all sweeps; a whole one sees nearly all of them
+using Directions = std::bitset<kSectors>;
+
 struct Survey {
   std::size_t sweeps = 0;
   std::size_t read = 0;
@@ -41,6 +48,8 @@ struct Survey {
   std::size_t most = 0;
   std::size_t not_finite = 0;
   std::vector<double> ranges;
+  Directions directions;        // in which any sweep has points
+  std::size_t sectors_max = 0;  // of one sweep
   std::vector<std::int64_t> stamps;
   float times_begin = 0;
   float times_end = 0;
@@ -49,6 +58,11 @@ struct Survey {
   bool intensity = false;
 };
 
+std::size_t sector_of(const Eigen::Vector3f& p) {
+  const double turn = std::atan2(static_cast<double>(p.y()), static_cast<double>(p.x())) / (2.0 * std::numbers::pi);
+  return std::min(static_cast<std::size_t>((turn + 0.5) * kSectors), kSectors - 1);
+}
+
 void look_at(const Sweep& sweep, Survey& survey) {
   const std::size_t n = sweep.points.size();
   survey.least = survey.read == 0 ? n : std::min(survey.least, n);
@@ -56,11 +70,17 @@ void look_at(const Sweep& sweep, Survey& survey) {
   survey.points += n;
   ++survey.read;
   const std::size_t stride = std::max<std::size_t>(1, n / 2000);  // enough for percentiles
+  Directions directions;
   for (std::size_t i = 0; i < n; ++i) {
     const bool finite = sweep.points[i].allFinite();
     survey.not_finite += finite ? 0 : 1;
-    if (finite && i % stride == 0) survey.ranges.push_back(sweep.points[i].cast<double>().norm());
+    if (finite && i % stride == 0) {
+      survey.ranges.push_back(sweep.points[i].cast<double>().norm());
+      directions.set(sector_of(sweep.points[i]));
+    }
   }
+  survey.directions |= directions;
+  survey.sectors_max = std::max(survey.sectors_max, directions.count());
   if (!sweep.times_s.empty()) {
     const auto [begin, end] = std::minmax_element(sweep.times_s.begin(), sweep.times_s.end());
     survey.times_begin = survey.timed ? std::min(survey.times_begin, *begin) : *begin;
@@ -74,7 +94,8 @@ void look_at(const Sweep& sweep, Survey& survey) {
 Survey survey_of(ScanSource& source, bool all) {
   Survey survey;
   const std::size_t total = source.size().value_or(0);
-  const std::size_t step = all || total <= kSweepsLookedAt ? 1 : total / kSweepsLookedAt;
+  // Odd: of halves of revolutions in turn, both are looked at.
+  const std::size_t step = all || total <= kSweepsLookedAt ? 1 : (total / kSweepsLookedAt) | 1;
   while (const auto sweep = source.next()) {
     look_at(*sweep, survey);
     survey.stamps.push_back(sweep->stamp_ns);
@@ -90,6 +111,12 @@ nlohmann::json range_percentiles(std::vector<double> ranges) {
           {"median", percentile(ranges, 0.5)},
           {"p95", percentile(ranges, 0.95)},
           {"max", ranges.back()}};
+}
+
+/// Degrees of the horizon with points, of one sweep at most and of all that were read.
+nlohmann::json directions_json(const Survey& survey) {
+  constexpr std::size_t kDegrees = 360 / kSectors;
+  return {{"one_sweep_deg", kDegrees * survey.sectors_max}, {"all_sweeps_deg", kDegrees * survey.directions.count()}};
 }
 
 nlohmann::json stamps_json(const Survey& survey, const SourceInfo& info, bool complete) {
@@ -170,6 +197,7 @@ nlohmann::json describe(const InfoFlags& flags, ScanSource& source) {
       {"sweeps_read", survey.read},
       {"points", {{"min", survey.least}, {"mean", mean}, {"max", survey.most}, {"not_finite", survey.not_finite}}},
       {"range_m", range_percentiles(survey.ranges)},
+      {"directions", directions_json(survey)},
       {"stamps", stamps_json(survey, info, complete)},
       {"point_times", {{"source", info.point_times}}},
       {"intensity", survey.intensity},
@@ -212,6 +240,15 @@ std::string as_text(const nlohmann::json& j) {
     const auto& range = j["range_m"];
     text += fmt::format("range         5 % {:.1f} m, median {:.1f} m, 95 % {:.1f} m, max {:.1f} m\n", real(range["p5"]),
                         real(range["median"]), real(range["p95"]), real(range["max"]));
+  }
+  const auto& directions = j["directions"];
+  const auto one = count(directions["one_sweep_deg"]);
+  const auto all = count(directions["all_sweeps_deg"]);
+  text += fmt::format("directions    {}° in one sweep, {}° in all\n", one, all);
+  if (static_cast<double>(one) < kPartOfRevolution * static_cast<double>(all)) {
+    text +=
+        "warning       a sweep seems to hold part of a revolution: let the driver send whole ones, since neighbouring "
+        "parts\n              see different surroundings and begin map after map\n";
   }
   const auto& stamps = j["stamps"];
   text +=

@@ -143,8 +143,8 @@ void start_listing(ScanListing& listing, const char* kind, const fs::path& path,
 void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const SourceOptions& options) {
   if (!stamps.empty()) {
     listing.stamps_ns = std::move(stamps);
-    if (const auto gap = mean_period_s(listing.stamps_ns)) {
-      listing.info.period_s = *gap;
+    if (const auto period_s = mean_period_s(listing.stamps_ns)) {
+      listing.info.period_s = *period_s;
       listing.period_known = true;
     } else {
       listing.info.period_s = 1 / options.assumed_rate_hz;

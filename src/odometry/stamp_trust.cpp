@@ -33,6 +33,9 @@ void StampTrust::learn(double deviation_s, const MotionPrior& prior, const IcpRe
   const Vector12d seen = (prior.information + H).ldlt().solve(prior.information * moved);
   const double information = seen.dot(H * moved);
   const double error = seen.dot(icp.posterior_information * prior_error(prior, icp.state));
+  if (!(information > 0.0) || !std::isfinite(error)) {
+    return;  // an even step, or nothing along the motion
+  }
   const double total = information_ + information;
   share_ = (information_ * share_ + information * share() + error) / total;
   information_ = std::min(total, kMostInformation);

@@ -29,7 +29,12 @@ std::string statuses(const RunMetrics& m) {
     text += fmt::format("\nbudget {:.1f} ms  fewer points on {} sweeps, coarse stage cut on {}, over budget on {}",
                         m.budget->sweep_ms, m.budget->points_cut, m.budget->coarse_cut, m.budget->over_budget);
   }
-  return text + "\n";
+  text += "\n";
+  const auto begun = m.status.find("initialising");
+  if (begun != m.status.end() && begun->second > 1 && 2 * begun->second > m.frames.value_or(0)) {
+    text += "                map after map begins: neighbouring sweeps do not fit; rilo info describes the sweeps\n";
+  }
+  return text;
 }
 
 // One name for each of the three: given on the command line, estimated, applied on top of what is given.

@@ -1,4 +1,6 @@
 // rilo info.
+#include <cmath>
+
 #include "cli/drives.hpp"
 
 namespace rilo::test {
@@ -32,6 +34,26 @@ TEST(InfoCommand, WithoutPointTimesItAsksWhetherThePointsAreRaw) {
   const TempDir folder;
   const Outcome info = rilo_succeeds({"info", long_folder(folder, 3)});
   expect_parts(info.out, {"--point-times azimuth   (raw", "--point-times none "});
+}
+
+// A window that the sensor looks through is not: its sweeps see the same directions.
+TEST(InfoCommand, SaysThatSweepsArePartsOfARevolution) {
+  for (const bool in_turn : {true, false}) {
+    const TempDir folder;
+    for (int i = 0; i < 120; ++i) {
+      std::string bytes;
+      for (int k = 0; k < 90; ++k) {
+        const float angle = 0.034F * static_cast<float>(k) + (in_turn && i % 2 == 1 ? 3.15F : 0.0F);
+        bytes +=
+            bytes_of<float>({10.0F * std::cos(angle), 10.0F * std::sin(angle), 0.1F * static_cast<float>(i), 0.0F});
+      }
+      folder.write("halves/" + std::to_string(i) + ".bin", bytes);
+    }
+    const std::string text = rilo_succeeds({"info", folder / "halves"}).out;
+    EXPECT_EQ(text.find("part of a revolution") != std::string::npos, in_turn) << text;
+    EXPECT_NE(text.find(in_turn ? "in one sweep, 360° in all" : "180° in one sweep, 180° in all"), std::string::npos)
+        << text;
+  }
 }
 
 TEST(InfoCommand, SaysWhatIsWrongWithTheTruth) {

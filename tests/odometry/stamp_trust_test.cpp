@@ -93,6 +93,19 @@ TEST(StampTrust, NothingIsLearntWhereNothingShows) {
   }
 }
 
+TEST(StampTrust, NothingIsLearntFromASingularSystem) {
+  StampTrust trust;
+  learn(trust, {.late_s = 0.01}, 30);
+  const double before = trust.share();
+  IcpResult icp;
+  icp.sweep_information.setConstant(std::nan(""));
+  icp.posterior_information = icp.sweep_information;
+  MotionState moving;
+  moving.twist[3] = kForwardSpeed;
+  trust.learn(0.01, motion_prior(moving, kVelocityKnown, {kEvenStepS}, {}), icp);
+  EXPECT_EQ(trust.share(), before);
+}
+
 TEST(StampTrust, WithoutAPriorStampsAreBelieved) {
   StampTrust trust;
   IcpResult icp;

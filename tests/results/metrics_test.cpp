@@ -104,5 +104,14 @@ TEST(Metrics, TheSummaryNamesOneElevationOffset) {
   EXPECT_THAT(corrected, HasSubstr("restarted after 18 sweeps"));
 }
 
+TEST(Metrics, TheSummaryExplainsMapsThatBeginAgainAndAgain) {
+  RunMetrics metrics;
+  metrics.frames = 10;
+  for (const std::size_t begun : {std::size_t{1}, std::size_t{5}, std::size_t{6}}) {
+    metrics.status = {{"initialising", begun}, {"ok", 10 - begun}};
+    EXPECT_EQ(run_summary(metrics).find("map after map begins") != std::string::npos, begun == 6) << begun;
+  }
+}
+
 }  // namespace
 }  // namespace rilo

@@ -94,7 +94,7 @@ class PacketSource final : public ScanSource {
     for (const DecodedSweep& done : ready_) stamps.push_back(done.sweep.stamp_ns);
     // The first stamp is not that of a whole revolution.
     if (stamps.size() > 2) stamps.erase(stamps.begin());
-    if (const auto gap = mean_period_s(stamps)) info_.period_s = *gap;
+    if (const auto period_s = mean_period_s(stamps)) info_.period_s = *period_s;
   }
 
   // Takes packets until another sweep is done, a message cannot be read, or the recording ends.

@@ -47,9 +47,7 @@ MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_
   const double dt_s = step.s;
   const double lag_s = std::abs(dt_s);  // a random walk is one backwards, too
   const double dt2 = dt_s * dt_s;
-  const Eigen::Matrix3d R = predicted.T_odom_lidar.linear();
-  Vector6d off;
-  off << step.error_s * R * predicted.twist.head<3>(), step.error_s * R * predicted.twist.tail<3>();
+  const Vector6d off = step.error_s * predicted.twist_in_odom();
   Matrix12d P;
   P.topLeftCorner<6, 6>() = dt2 * V + dt2 * lag_s / 3.0 * Q + off * off.transpose();
   P.topRightCorner<6, 6>() = dt_s * V + dt_s * lag_s / 2.0 * Q;

@@ -23,10 +23,8 @@ void StampTrust::learn(double deviation_s, const MotionPrior& prior, const IcpRe
   ++steps_;
   mean_square_s2_ += (deviation_s * deviation_s - mean_square_s2_) / steps_;
 
-  const Eigen::Matrix3d R = prior.state.T_odom_lidar.linear();
   Vector12d moved = Vector12d::Zero();  // more, if the whole deviation is motion
-  moved.segment<3>(0) = deviation_s * R * prior.state.twist.head<3>();
-  moved.segment<3>(3) = deviation_s * R * prior.state.twist.tail<3>();
+  moved.head<6>() = deviation_s * prior.state.twist_in_odom();
   // The sweep alone (information H) lies at x_s: (Λ + H) x = H x_s where the registration ended, x from the prior's
   // mean. The covariance of x_s about that mean is Λ⁻¹ + H⁻¹, whose inverse is Λ (Λ + H)⁻¹ H.
   const Matrix12d& H = icp.sweep_information;

@@ -29,8 +29,7 @@ Vector12d prior_error(const MotionPrior& prior, const MotionState& state) {
   const SE3& T0 = prior.state.T_odom_lidar;
   e.segment<3>(0) = so3_log(T.linear() * T0.linear().transpose());
   e.segment<3>(3) = T.translation() - T0.translation();
-  e.segment<3>(6) = T.linear() * state.twist.head<3>() - T0.linear() * prior.state.twist.head<3>();
-  e.segment<3>(9) = T.linear() * state.twist.tail<3>() - T0.linear() * prior.state.twist.tail<3>();
+  e.tail<6>() = state.twist_in_odom() - prior.state.twist_in_odom();
   return e;
 }
 

@@ -39,6 +39,13 @@ struct MotionState {
     return motion;
   }
 
+  /// The velocity along the axes of the odometry frame, as perturbations are.
+  Vector6d twist_in_odom() const {
+    Vector6d twist_odom;
+    twist_odom << T_odom_lidar.linear() * twist.head<3>(), T_odom_lidar.linear() * twist.tail<3>();
+    return twist_odom;
+  }
+
   /// Derivative (s) of the motion to `offset_s` by the velocity, with which the acceleration changes, too.
   double velocity_lever_s(double offset_s) const {
     return earlier.lag_s > 0.0 ? offset_s + 0.5 * offset_s * offset_s / earlier.lag_s : offset_s;

@@ -19,6 +19,7 @@
 #include "io/ground_truth.hpp"
 #include "results/metrics_json.hpp"
 #include "rilo/io/io_error.hpp"
+#include "rilo/io/point_times.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "rilo/io/trajectory_files.hpp"
 #include "source_flags.hpp"
@@ -54,6 +55,7 @@ struct Survey {
   float times_begin = 0;
   float times_end = 0;
   bool timed = false;
+  bool in_order = false;  // the points of the first sweep, as a spinning sensor measured them
   int rings = 0;
   bool intensity = false;
 };
@@ -68,7 +70,7 @@ void look_at(const Sweep& sweep, Survey& survey) {
   survey.least = survey.read == 0 ? n : std::min(survey.least, n);
   survey.most = std::max(survey.most, n);
   survey.points += n;
-  ++survey.read;
+  if (survey.read++ == 0) survey.in_order = order_times(sweep.points, 1).has_value();
   const std::size_t stride = std::max<std::size_t>(1, n / 2000);  // enough for percentiles
   Directions directions;
   for (std::size_t i = 0; i < n; ++i) {
@@ -199,7 +201,7 @@ nlohmann::json describe(const InfoFlags& flags, ScanSource& source) {
       {"range_m", range_percentiles(survey.ranges)},
       {"directions", directions_json(survey)},
       {"stamps", stamps_json(survey, info, complete)},
-      {"point_times", {{"source", info.point_times}}},
+      {"point_times", {{"source", info.point_times}, {"in_order", survey.in_order}}},
       {"intensity", survey.intensity},
       {"rings", survey.rings},
       {"calibration", info.T_cam_lidar.has_value()},
@@ -218,10 +220,15 @@ nlohmann::json describe(const InfoFlags& flags, ScanSource& source) {
   return json;
 }
 
-/// What to run next. Whether points without times are raw cannot be seen.
+/// What to run next. Whether points without times are raw cannot be seen from single sweeps.
 std::string advice(const nlohmann::json& j) {
   const std::string run = "rilo run " + shell_quoted(word(j["data"])) + " --out results";
   if (j["point_times"].contains("begin_s")) return "to run it     " + run + "\n";
+  if (j["point_times"]["in_order"].get<bool>()) {
+    return "to run it     " + run + "   (finds out whether the points are raw)\n" + "              " + run +
+           " --point-times order   (they are)\n" + "              " + run +
+           " --point-times none    (they are motion-compensated)\n";
+  }
   return "to run it     " + run + " --point-times azimuth   (raw points of a spinning sensor)\n" + "              " +
          run + " --point-times none      (points that are motion-compensated)\n";
 }

@@ -16,10 +16,11 @@ void add_time_flags(CLI::App& command, SourceRequest& flags) {
         flags.times_needed = text == "data";
         flags.options.point_times = flags.times_needed ? PointTimes::kAuto : parse_point_times(text).value();
       },
-      {"auto", "data", "azimuth", "none"},
+      {"auto", "data", "azimuth", "order", "none"},
       "per-point times for motion compensation. auto: from the data when it has them; data: the same, and an error "
       "when it has none; azimuth: from the angle of a clockwise spinning sensor whose sweep is stamped at the forward "
-      "direction (KITTI raw); none: the points are compensated already. Default: auto");
+      "direction (KITTI raw); order: from the order of the points of a spinning sensor; none: the points are "
+      "compensated already. Default: auto");
   add_choice(
       command, "--point-time-unit",
       [&options](const std::string& text) { options.point_time_unit = parse_point_time_unit(text).value(); },

@@ -31,7 +31,7 @@ constexpr const char* kViewFooter =
     R"(RESULTS is a folder that rilo run --out has written. The sweeps are read again from where the run had them (the path in
 metrics.json; --data when they have moved). Where they no longer exist, trajectory, figures and a map file in RESULTS (.ply
 or .pcd) are shown. Options on how data are read must be those of the run; topic, elevation correction and
-azimuth times are taken from metrics.json. Ctrl-C ends it.
+times from azimuth or order are taken from metrics.json. Ctrl-C ends it.
 
 Examples:
   rilo view results
@@ -57,6 +57,7 @@ SourceOptions source_options(const ViewFlags& flags, const RunMetrics& metrics) 
     options.point_times = PointTimes::kAzimuth;
     if (times.find("counter-clockwise") != std::string::npos) options.spin_direction = SpinDirection::kCounterClockwise;
   }
+  if (options.point_times == PointTimes::kAuto && times.starts_with("order")) options.point_times = PointTimes::kOrder;
   return options;
 }
 

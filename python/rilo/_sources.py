@@ -38,7 +38,9 @@ def open(path, **options):
                               an HDL-64E's calibration (YAML of velodyne_pointcloud).
     bin_fields:               columns of a .bin record, float32 each: "x,y,z,intensity,time,ring"; _ is ignored.
     point_times:              auto: from the data when it has them; azimuth: from the angle of a spinning sensor whose
-                              sweep is stamped at its forward direction (KITTI raw); none: compensated already.
+                              sweep is stamped at its forward direction (KITTI raw); order: from the order in which a
+                              spinning sensor measured the points; none: compensated already. rilo.run() tries
+                              whether points without times are raw (auto).
     point_time_unit:          infer, s, ms, us, ns or fraction.
     point_time_reference:     infer, stamp or epoch: what the time field counts from.
     time_field:               name of the PCD or PLY field with the point times.

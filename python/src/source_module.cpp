@@ -46,7 +46,7 @@ SourceOptions options_of(const std::string& topic, const std::filesystem::path& 
   options.topic = topic;
   options.sensor_file = sensor_file.string();
   if (!bin_fields.empty()) options.bin_fields = bin_fields;
-  options.point_times = choice("point_times", point_times, parse_point_times, "auto, none or azimuth");
+  options.point_times = choice("point_times", point_times, parse_point_times, "auto, none, azimuth or order");
   options.point_time_unit =
       choice("point_time_unit", point_time_unit, parse_point_time_unit, "infer, s, ms, us, ns or fraction");
   options.point_time_reference =

@@ -135,8 +135,9 @@ class PlanReader {
               whole("count", s.count),
               {"point_times",
                [&](const Node& n) {
-                 constexpr PointTimes kValues[] = {PointTimes::kAuto, PointTimes::kAzimuth, PointTimes::kNone};
-                 s.point_times = kValues[word(n, "point_times", {"auto", "azimuth", "none"})];
+                 constexpr PointTimes kValues[] = {PointTimes::kAuto, PointTimes::kAzimuth, PointTimes::kOrder,
+                                                   PointTimes::kNone};
+                 s.point_times = kValues[word(n, "point_times", {"auto", "azimuth", "order", "none"})];
                }},
               {"elevation_correction", [&](const Node& n) { s.elevation_correction_deg = elevation(n); }},
               {"group", [&](const Node& n) { s.group = text(n, "group"); }},

@@ -80,6 +80,7 @@ std::unique_ptr<ScanSource> open_data(const fs::path& path, const SourceOptions&
 
 std::unique_ptr<ScanSource> in_order_and_corrected(std::unique_ptr<ScanSource> source, const SourceOptions& options) {
   source = detail::with_stamp_order(std::move(source));
+  if (options.point_times == PointTimes::kOrder) source = detail::with_order_times(std::move(source));
   if (options.elevation_correction_deg == 0) return source;
   return detail::with_elevation_correction(std::move(source), options.elevation_correction_deg);
 }

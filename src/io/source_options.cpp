@@ -9,8 +9,10 @@ namespace {
 template <typename Enum, std::size_t N>
 using Names = std::array<std::pair<Enum, std::string_view>, N>;
 
-constexpr Names<PointTimes, 3> kPointTimes{
-    {{PointTimes::kAuto, "auto"}, {PointTimes::kNone, "none"}, {PointTimes::kAzimuth, "azimuth"}}};
+constexpr Names<PointTimes, 4> kPointTimes{{{PointTimes::kAuto, "auto"},
+                                            {PointTimes::kNone, "none"},
+                                            {PointTimes::kAzimuth, "azimuth"},
+                                            {PointTimes::kOrder, "order"}}};
 constexpr Names<PointTimeUnit, 6> kUnits{{{PointTimeUnit::kInfer, "infer"},
                                           {PointTimeUnit::kSeconds, "s"},
                                           {PointTimeUnit::kMilliseconds, "ms"},

@@ -22,6 +22,11 @@ void correct_elevation(std::vector<Eigen::Vector3f>& points, double offset_deg);
 /// Applies correct_elevation to every sweep of `inner` and says so in info().
 std::unique_ptr<ScanSource> with_elevation_correction(std::unique_ptr<ScanSource> inner, double offset_deg);
 
+/// Gives every sweep of `inner` the times of order_times(), over the period that `inner` has, and says so in info().
+/// Its next() throws IoError until a sweep lies in order; one that does not after that is timed by the places of its
+/// points.
+std::unique_ptr<ScanSource> with_order_times(std::unique_ptr<ScanSource> inner);
+
 /// Reads up to `depth` sweeps (one at least) ahead on a background thread, which starts at the first next(). The order
 /// and the errors are those of `inner`: an exception is rethrown by the next() that would have thrown it. The
 /// destructor waits for the sweep that is being read.

@@ -20,7 +20,7 @@ void SweepTiming::promise(const std::optional<std::string>& times) {
 
 void SweepTiming::apply(const std::optional<RawTimes>& times, const std::filesystem::path& file, double forward_after_s,
                         Sweep& sweep) {
-  if (from_ == PointTimes::kNone) return;
+  if (from_ == PointTimes::kNone || from_ == PointTimes::kOrder) return;  // see with_order_times()
   if (from_ == PointTimes::kAzimuth) {
     sweep.stamp_ns += std::llround(forward_after_s * 1e9);
     sweep.times_s = azimuth_times(sweep.points, period_s_, spin_);

@@ -88,9 +88,11 @@ void add_live_numbers(KeyVisitor& keys, NodeOptions& o) {
 }
 
 void add_source(KeyVisitor& keys, SourceOptions& s) {
-  keys.choice<PointTimes>(
-      {"point_times", "", "where the times of the points come from"}, s.point_times,
-      {{"auto", PointTimes::kAuto}, {"none", PointTimes::kNone}, {"azimuth", PointTimes::kAzimuth}});
+  keys.choice<PointTimes>({"point_times", "", "where the times of the points come from"}, s.point_times,
+                          {{"auto", PointTimes::kAuto},
+                           {"none", PointTimes::kNone},
+                           {"azimuth", PointTimes::kAzimuth},
+                           {"order", PointTimes::kOrder}});
   keys.choice<PointTimeUnit>({"point_time_unit", "", "unit of the field of times"}, s.point_time_unit,
                              {{"infer", PointTimeUnit::kInfer},
                               {"s", PointTimeUnit::kSeconds},

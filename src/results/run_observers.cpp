@@ -12,6 +12,7 @@
 #include "console/failure.hpp"
 #include "console/interrupt.hpp"
 #include "io/stamp_difference.hpp"
+#include "rilo/io/point_times.hpp"
 #include "rilo/io/trajectory_files.hpp"
 #include "session/steady_clock.hpp"
 
@@ -41,12 +42,23 @@ ProgressLine::ProgressLine(const RunRequest& flags, const ScanSource& source)
 void ProgressLine::on_registered(const RegisteredSweep& sweep) {
   if (done_ == 0 && times_ == PointTimes::kAuto && sweep.sweep.times_s.empty() && !note_given_) {
     note_given_ = true;
+    const bool in_order = order_times(sweep.sweep.points, 1).has_value();
     progress_.say(
-        "rilo: note: no per-point times: no motion compensation; raw points of a spinning sensor: --point-times "
-        "azimuth; points that are compensated: --point-times none");
+        fmt::format("rilo: note: no per-point times: no motion compensation; raw points of a spinning sensor: "
+                    "--point-times {}; points that are compensated: --point-times none",
+                    in_order ? "order" : "azimuth"));
   }
   const bool usual = sweep.result.status == OdometryStatus::kOk;
   progress_.update(++done_, usual ? "" : std::string(to_string(sweep.result.status)));
+}
+
+void ProgressLine::on_trial(const CompensationTrial& trial) {
+  if (!trial.decided()) return;
+  note_given_ = true;
+  progress_.say(fmt::format(
+      "rilo: note: no per-point times; {} of {} sweeps fit better with those of the points' order: taken as {} "
+      "(--point-times {}: the other way)",
+      trial.better, trial.sweeps, trial.raw() ? "raw" : "compensated", trial.raw() ? "none" : "order"));
 }
 
 void ProgressLine::on_warning(const std::string& warning) { progress_.say("rilo: warning: " + warning); }
@@ -155,6 +167,7 @@ SessionOptions session_options(const RunRequest& flags, const OdometryConfig& co
   options.start = flags.start;
   options.count = flags.count;
   options.one_pass = flags.one_pass;
+  options.point_times = flags.source.options.point_times;
   options.keep_intensities = flags.map_intensity;
   options.interrupted = [] { return InterruptGuard::signal() != 0; };
   return options;

@@ -35,6 +35,7 @@ class ProgressLine final : public SessionObserver {
  public:
   ProgressLine(const RunRequest& flags, const ScanSource& source);
   void on_registered(const RegisteredSweep& sweep) override;
+  void on_trial(const CompensationTrial& trial) override;
   void on_warning(const std::string& warning) override;
   void on_restart(const Restart& restart) override;
   void on_end(const Odometry& odometry) override;

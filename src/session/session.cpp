@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "geometry/degrees.hpp"
+#include "io/source_wrappers.hpp"
 #include "rilo/io/point_times.hpp"
 #include "session/process_memory.hpp"
 #include "session/steady_clock.hpp"
@@ -60,11 +61,24 @@ class Session::Impl {
   }
 
   void run_sweeps() {
+    try_order();
     source_->skip(options_.start);
     while (!interrupted() && (options_.count == 0 || result_.results.size() < options_.count) && step()) {
       if (restart_due()) restart();
     }
     if (result_.results.empty() && !result_.interrupted) throw RunError(RunErrorKind::kBadData, nothing_to_run());
+  }
+
+  // Raw points without times are common, and nothing but the fit tells them from compensated ones.
+  void try_order() {
+    if (options_.point_times != PointTimes::kAuto || options_.one_pass || source_->info().has_point_times) return;
+    source_->skip(options_.start);
+    result_.trial = try_compensation(*source_, options_.config, options_.interrupted);
+    if (result_.trial.raw()) {
+      open_ = [open = std::move(open_)] { return detail::with_order_times(open()); };
+    }
+    source_ = open_();
+    for (SessionObserver* observer : observers_) observer->on_trial(result_.trial);
   }
 
   // False at the end of the data.
@@ -159,7 +173,9 @@ SessionResult Session::run() { return impl_->run(); }
 
 SessionResult run_recording(const std::filesystem::path& data, const SessionOptions& options,
                             const SourceOptions& source) {
-  SessionResult result = Session([&] { return open_scan_source(data, source); }, options).run();
+  SessionOptions as_opened = options;
+  as_opened.point_times = source.point_times;
+  SessionResult result = Session([&] { return open_scan_source(data, source); }, as_opened).run();
   if (result.failure) std::rethrow_exception(result.failure);
   return result;
 }

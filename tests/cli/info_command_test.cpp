@@ -32,8 +32,11 @@ TEST(InfoCommand, TextOfADrive) {
 
 TEST(InfoCommand, WithoutPointTimesItAsksWhetherThePointsAreRaw) {
   const TempDir folder;
-  const Outcome info = rilo_succeeds({"info", long_folder(folder, 3)});
-  expect_parts(info.out, {"--point-times azimuth   (raw", "--point-times none "});
+  const Outcome in_order = rilo_succeeds({"info", long_folder(folder, 3)});
+  expect_parts(in_order.out, {"finds out", "--point-times order   (they are)", "--point-times none "});
+  folder.write("few/0.bin", bytes_of<float>({1, 2, 3, 4, 5, 6, 7, 8}));
+  const Outcome few = rilo_succeeds({"info", folder / "few"});
+  expect_parts(few.out, {"--point-times azimuth   (raw", "--point-times none "});
 }
 
 // A window that the sensor looks through is not: its sweeps see the same directions.

@@ -1,4 +1,8 @@
 // Options of rilo run.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+
 #include "cli/drives.hpp"
 
 namespace rilo::test {
@@ -52,6 +56,28 @@ TEST(RunFlags, WithoutPointTimesItSaysWhatToDo) {
   EXPECT_EQ(notes("auto"), 1U);
   EXPECT_EQ(notes("none"), 0U);
   EXPECT_EQ(notes("azimuth"), 0U);
+}
+
+TEST(RunFlags, RawPointsWithoutTimesAreFoundOut) {
+  const TempDir folder;
+  const auto drive = folder / "drive";
+  rilo_succeeds({"simulate", "--out", drive, "--sensor", "vlp16", "--sweeps", "25", "--start", "10", "--quiet"});
+  std::filesystem::remove_all(drive / "times_pt");
+  EXPECT_THAT(rilo_succeeds({"info", drive}).out, testing::HasSubstr("--point-times order   (they are)"));
+  const auto run = [&](const std::string& out, const std::vector<std::string>& flags) {
+    std::vector<std::string> command = {"run", drive, "--out", folder / out, "--no-report"};
+    command.insert(command.end(), flags.begin(), flags.end());
+    const Outcome outcome = rilo_succeeds(command);
+    return std::pair(outcome.err.find("taken as raw") != std::string::npos, slurp(folder / out / "poses_lidar.txt"));
+  };
+  const auto [found, poses] = run("auto", {});
+  EXPECT_TRUE(found);
+  EXPECT_EQ(run("order", {"--point-times", "order"}), std::pair(false, poses));
+  const auto none = run("none", {"--point-times", "none", "--one-pass"});
+  EXPECT_NE(none.second, poses);
+  EXPECT_EQ(run("one", {"--one-pass"}), none);
+  EXPECT_TRUE(
+      json_file(folder / "auto" / "metrics.json")["point_times"].get<std::string>().starts_with("order of the points"));
 }
 
 TEST(RunFlags, AMapWithoutAFolderGoesIntoOutAndAStaleOneGoesAway) {

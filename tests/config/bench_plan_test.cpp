@@ -121,7 +121,7 @@ TEST(BenchPlan, refusals_say_where_and_what) {
       {"sequences: [{path: a, count: '5'}]", {"count", "whole number"}},
       {"sequences: [{path: a, max_gap_s: nan}]", {"max_gap_s", "a number"}},
       {"sequences: [{path: a, elevation_correction: 11}]", {"-10", "10"}},
-      {"sequences: [{path: a, point_times: guess}]", {"auto, azimuth or none"}},
+      {"sequences: [{path: a, point_times: guess}]", {"auto, azimuth, order or none"}},
       {"sequences: [{path: a, peers: [b]}]", {"a map of names"}},
       {"sequences: [{path: a, peers: {b: }}]", {"no value"}},
       {"sequences: [{path: a, peers: {full: b}}]\nconfigurations: [{name: full}]", {"full", "a peer of a"}},

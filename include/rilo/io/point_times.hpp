@@ -58,6 +58,12 @@ class PointTimeDecoder {
 /// period for clockwise, seen from above, else +; within ± period / 2. NaN points get 0.
 std::vector<float> azimuth_times(const std::vector<Eigen::Vector3f>& points, double period_s, SpinDirection direction);
 
+/// Times of points that lie in the order in which a sensor that turns measured them, whatever the direction, the seam
+/// and the angle of a sweep: the share of the angle that is swept before a point, of `period_s`. Nothing when the
+/// points do not go round once, in one direction, or are too few to tell. Points without a measurement are timed by
+/// their place.
+std::optional<std::vector<float>> order_times(const std::vector<Eigen::Vector3f>& points, double period_s);
+
 /// The stamp of a pose at the middle of a sweep: `middle_ns`, or the sweep's own stamp when they are at most a
 /// microsecond apart. The azimuth times of measured points are not quite symmetric about the stamp; without this the
 /// first pose of a recording that begins at 0 would have a negative stamp.

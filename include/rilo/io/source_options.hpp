@@ -14,8 +14,9 @@ enum class PointTimes : std::uint8_t {
   kAuto,     ///< from the data when it has them, else none
   kNone,     ///< ignored: every point is taken at the sweep's stamp
   kAzimuth,  ///< from the azimuth of a spinning sensor whose sweep is stamped when it faces forward
+  kOrder,    ///< from the order of the points, as a spinning sensor measured them
 };
-/// auto, none, azimuth.
+/// auto, none, azimuth, order.
 std::string_view to_string(PointTimes value);
 std::optional<PointTimes> parse_point_times(std::string_view text);
 

@@ -17,6 +17,7 @@
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 #include "rilo/odometry/sweep_result.hpp"
+#include "rilo/session/compensation_trial.hpp"
 #include "rilo/session/session_observer.hpp"
 
 namespace rilo {
@@ -50,6 +51,9 @@ struct SessionOptions {
   /// Single pass, as in live operation. Otherwise the run starts over, once, with the elevation offset of the sensor as
   /// soon as that is certain, so that the first sweeps have its correction, too.
   bool one_pass = false;
+  /// As the source was opened. With kAuto, points that come without times are tried: when they fit better with those of
+  /// their order, the run takes them (not in a single pass, which does not look ahead).
+  PointTimes point_times = PointTimes::kNone;
   bool keep_intensities = false;      ///< Odometry::keep_intensities
   std::function<bool()> interrupted;  ///< called before every sweep; true ends the run there. Empty: never
 };
@@ -61,6 +65,7 @@ struct SessionResult {
   SourceInfo source;                 ///< at the end of the run
   OdometryConfig config;             ///< that led to `results`: with the elevation offset when the run started over
   int threads = 0;                   ///< used by the odometry
+  CompensationTrial trial;           ///< of points without times
   std::optional<std::size_t> started_over_after;  ///< sweeps of the first pass, when there was a second
   PoseInstant pose_instant = PoseInstant::kMid;   ///< of the sweep, that the poses refer to
   double wall_s = 0;                              ///< duration of the run, both passes

@@ -11,6 +11,7 @@
 #include "rilo/cloud/thinned_map.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/odometry/sweep_result.hpp"
+#include "rilo/session/compensation_trial.hpp"
 
 namespace rilo {
 
@@ -37,6 +38,8 @@ class SessionObserver {
   /// A sweep was read and is registered next. `name`: for messages (ScanSource::current_name).
   virtual void on_read(const Sweep& /*sweep*/, const std::string& /*name*/) {}
   virtual void on_registered(const RegisteredSweep& /*sweep*/) {}
+  /// Before the first sweep: points without times were tried, and are taken as raw when trial.raw().
+  virtual void on_trial(const CompensationTrial& /*trial*/) {}
   /// A sentence for the user, each once.
   virtual void on_warning(const std::string& /*warning*/) {}
   virtual void on_restart(const Restart& /*restart*/) {}

@@ -1,0 +1,199 @@
+// Raw or compensated: points without times, told apart by how they fit.
+#include "rilo/session/compensation_trial.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "rilo/io/io_error.hpp"
+#include "rilo/io/point_times.hpp"
+#include "rilo/session/session.hpp"
+#include "rilo/session/session_observer.hpp"
+#include "rilo/simulation/drive_simulator.hpp"
+
+namespace rilo {
+namespace {
+
+constexpr std::size_t kTrialSweeps = 30;
+constexpr double kPeriodS = 0.1;
+
+struct Drive {
+  std::vector<Sweep> sweeps;
+  std::vector<SE3> truth;  // at mid-sweep
+};
+
+/// Column by column, as drivers write it, and without times.
+Drive drive(bool deskewed, double start_s) {
+  DriveConfig config;
+  config.sensor = SensorKind::kVlp16;
+  config.sweeps = kTrialSweeps;
+  config.start_s = start_s;
+  config.deskewed = deskewed;
+  const DriveSimulator simulator(config);
+  Drive drive;
+  for (std::size_t i = 0; i < kTrialSweeps; ++i) {
+    SimulatedSweep simulated = simulator.sweep(i);
+    drive.sweeps.push_back(std::move(simulated.sweep));
+    drive.sweeps.back().times_s.clear();
+    drive.truth.push_back(simulated.T_odom_lidar_mid);
+  }
+  return drive;
+}
+
+const Drive& raw() {
+  static const Drive kDrive = drive(false, 10.0);
+  return kDrive;
+}
+const Drive& compensated() {
+  static const Drive kDrive = drive(true, 10.0);
+  return kDrive;
+}
+
+class Sweeps final : public ScanSource {
+ public:
+  explicit Sweeps(std::vector<Sweep> sweeps, std::size_t fails_at = SIZE_MAX)
+      : sweeps_(std::move(sweeps)), fails_at_(fails_at) {}
+  std::optional<Sweep> next() override {
+    if (at_ == fails_at_) throw IoError({"sweep", "", "noise", "a sweep", ""});
+    if (at_ == sweeps_.size()) return std::nullopt;
+    return sweeps_[at_++];
+  }
+  std::size_t skip(std::size_t count) override {
+    at_ += count;
+    return count;
+  }
+  std::optional<std::size_t> size() const override { return sweeps_.size(); }
+  std::size_t current_index() const override { return at_ - 1; }
+  std::string current_name() const override { return "sweep " + std::to_string(at_ - 1); }
+  SourceInfo info() const override {
+    SourceInfo info;
+    info.period_s = kPeriodS;
+    return info;
+  }
+
+ private:
+  std::vector<Sweep> sweeps_;
+  std::size_t fails_at_;
+  std::size_t at_ = 0;
+};
+
+CompensationTrial trial_of(const std::vector<Sweep>& sweeps, const OdometryConfig& config = {},
+                           const std::function<bool()>& interrupted = {}) {
+  Sweeps source(sweeps);
+  return try_compensation(source, config, interrupted);
+}
+
+SessionResult run_of(const std::vector<Sweep>& sweeps, PointTimes point_times, bool one_pass = false) {
+  SessionOptions options;
+  options.point_times = point_times;
+  options.one_pass = one_pass;
+  return Session([&] { return std::make_unique<Sweeps>(sweeps); }, options).run();
+}
+
+std::vector<Eigen::Matrix4d> poses_of(const SessionResult& run) {
+  std::vector<Eigen::Matrix4d> matrices;
+  for (const StampedPose& pose : run.trajectory()) matrices.emplace_back(pose.T_odom_lidar.matrix());
+  return matrices;
+}
+
+double error_at_end_m(const SessionResult& run, const Drive& drive) {
+  const SE3 truth = drive.truth.front().inverse() * drive.truth.back();
+  const SE3 found = run.results.front().T_odom_lidar.inverse() * run.results.back().T_odom_lidar;
+  return (truth.inverse() * found).translation().norm();
+}
+
+TEST(CompensationTrial, RawPointsFitBetter) {
+  const CompensationTrial trial = trial_of(raw().sweeps);
+  EXPECT_EQ(trial.sweeps, kTrialSweeps - 3);
+  EXPECT_GE(trial.better, 25U);
+  EXPECT_TRUE(trial.raw());
+}
+
+TEST(CompensationTrial, CompensatedOnesDoNot) {
+  const CompensationTrial trial = trial_of(compensated().sweeps);
+  EXPECT_EQ(trial.sweeps, kTrialSweeps - 3);
+  EXPECT_LE(trial.better, 9U);
+  EXPECT_FALSE(trial.raw());
+}
+
+TEST(CompensationTrial, DoesNotDependOnThreadsOrBudget) {
+  const CompensationTrial usual = trial_of(raw().sweeps);
+  for (const int threads : {1, 2, 4}) {
+    OdometryConfig config;
+    config.threads = threads;
+    config.budget.sweep_ms = 5;
+    const CompensationTrial trial = trial_of(raw().sweeps, config);
+    EXPECT_EQ(trial.sweeps, usual.sweeps);
+    EXPECT_EQ(trial.better, usual.better);
+  }
+}
+
+TEST(CompensationTrial, WhatStandsTellsNothing) {
+  const CompensationTrial trial = trial_of(std::vector<Sweep>(kTrialSweeps, raw().sweeps[0]));
+  EXPECT_EQ(trial.sweeps, 0U);
+  EXPECT_FALSE(trial.decided());
+  EXPECT_FALSE(trial.raw());
+}
+
+TEST(CompensationTrial, NotOfOtherSweeps) {
+  std::vector<Sweep> timed = raw().sweeps;
+  for (Sweep& sweep : timed) sweep.times_s = *order_times(sweep.points, kPeriodS);
+  EXPECT_EQ(trial_of(timed).sweeps, 0U);
+
+  std::vector<Sweep> other_order = raw().sweeps;
+  for (Sweep& sweep : other_order) std::reverse(sweep.points.begin() + 5000, sweep.points.end());
+  EXPECT_EQ(trial_of(other_order).sweeps, 0U);
+
+  OdometryConfig without;
+  without.preprocess.deskew = false;
+  EXPECT_EQ(trial_of(raw().sweeps, without).sweeps, 0U);
+}
+
+TEST(CompensationTrial, EndsWithTheDataAnErrorOrAnInterrupt) {
+  EXPECT_FALSE(trial_of({}).raw());
+  EXPECT_FALSE(trial_of({raw().sweeps.begin(), raw().sweeps.begin() + 8}).raw());
+  EXPECT_EQ(trial_of(raw().sweeps, {}, [] { return true; }).sweeps, 0U);
+  Sweeps failing(raw().sweeps, 9);
+  EXPECT_LE(try_compensation(failing, {}, {}).sweeps, 6U);
+}
+
+TEST(CompensationTrial, ARunTakesRawPointsAsRaw) {
+  const SessionResult automatic = run_of(raw().sweeps, PointTimes::kAuto);
+  ASSERT_EQ(automatic.failure, nullptr);
+  EXPECT_TRUE(automatic.trial.raw());
+  EXPECT_EQ(automatic.source.point_times.substr(0, 19), "order of the points");
+  std::vector<Sweep> timed = raw().sweeps;
+  for (Sweep& sweep : timed) sweep.times_s = *order_times(sweep.points, kPeriodS);
+  EXPECT_EQ(poses_of(automatic), poses_of(run_of(timed, PointTimes::kAuto)));
+  const SessionResult without = run_of(raw().sweeps, PointTimes::kNone);
+  EXPECT_LT(error_at_end_m(automatic, raw()), 0.3 * error_at_end_m(without, raw()));
+}
+
+TEST(CompensationTrial, ARunLeavesOthersAsTheyAre) {
+  const SessionResult without = run_of(compensated().sweeps, PointTimes::kNone);
+  EXPECT_EQ(poses_of(run_of(compensated().sweeps, PointTimes::kAuto)), poses_of(without));
+  // As on a robot: nothing is known of the sweeps to come.
+  EXPECT_EQ(poses_of(run_of(raw().sweeps, PointTimes::kAuto, true)),
+            poses_of(run_of(raw().sweeps, PointTimes::kNone, true)));
+}
+
+TEST(CompensationTrial, ObserversAreTold) {
+  struct Told final : SessionObserver {
+    void on_trial(const CompensationTrial& trial) override { trials.push_back(trial); }
+    std::vector<CompensationTrial> trials;
+  };
+  for (const bool is_raw : {false, true}) {
+    SessionOptions options;
+    options.point_times = PointTimes::kAuto;
+    Session session([&] { return std::make_unique<Sweeps>(is_raw ? raw().sweeps : compensated().sweeps); }, options);
+    Told told;
+    session.add(told);
+    EXPECT_EQ(session.run().results.size(), kTrialSweeps);
+    ASSERT_EQ(told.trials.size(), 1U);
+    EXPECT_EQ(told.trials[0].raw(), is_raw);
+  }
+}
+
+}  // namespace
+}  // namespace rilo

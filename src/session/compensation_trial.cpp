@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
@@ -27,14 +28,37 @@ bool moved(const SweepResult& result, double period_s) {
   return period_s * result.twist.head<3>().norm() > kTurnedRad || period_s * result.twist.tail<3>().norm() > kMovedM;
 }
 
-/// The sweep with the times of its order, when it has none and its points lie in order.
-std::optional<Sweep> timed(const Sweep& sweep, double period_s) {
-  if (!sweep.times_s.empty()) return std::nullopt;
-  auto times = order_times(sweep.points, period_s);
-  if (!times) return std::nullopt;
-  Sweep raw = sweep;
-  raw.times_s = std::move(*times);
-  return raw;
+/// What is remembered of a sweep.
+struct Fit {
+  bool compared = false;
+  double residual_rms_m = 0;
+};
+
+/// Of at most `most` sweeps of `source`; with times, until enough moved.
+std::vector<Fit> fits_of(ScanSource& source, const OdometryConfig& config, bool with_times, std::size_t most,
+                         const std::function<bool()>& interrupted) {
+  std::vector<Fit> fits;
+  Odometry odometry(config);
+  std::size_t compared = 0;
+  try {
+    while (fits.size() < most && compared < kEnough && !(interrupted && interrupted())) {
+      std::optional<Sweep> sweep = source.next();
+      if (!sweep || !sweep->times_s.empty()) break;
+      const double period_s = source.info().period_s;
+      if (with_times) {
+        auto times = order_times(sweep->points, period_s);
+        if (!times) break;
+        sweep->times_s = std::move(*times);
+      }
+      const SweepResult result = odometry.register_sweep(*sweep);
+      const bool usable = fits.size() >= kBeginning && registered(result);
+      fits.push_back({usable && (!with_times || moved(result, period_s)), result.stats.residual_rms_m});
+      compared += with_times && fits.back().compared ? 1 : 0;
+    }
+  } catch (const IoError&) {
+    // The run will meet and report it.
+  }
+  return fits;
 }
 
 }  // namespace
@@ -45,28 +69,23 @@ bool CompensationTrial::raw() const {
   return decided() && static_cast<double>(better) >= kRawShare * static_cast<double>(sweeps);
 }
 
-CompensationTrial try_compensation(ScanSource& source, OdometryConfig config,
-                                   const std::function<bool()>& interrupted) {
+CompensationTrial try_compensation(const std::function<std::unique_ptr<ScanSource>()>& open, std::size_t start,
+                                   OdometryConfig config, const std::function<bool()>& interrupted) {
   CompensationTrial trial;
   if (!config.preprocess.deskew) return trial;
   config.budget.sweep_ms = 0;  // what is cut depends on the machine
-  Odometry as_read(config);
-  Odometry compensated(config);
-  try {
-    for (std::size_t i = 0; i < kMostSweeps && trial.sweeps < kEnough && !(interrupted && interrupted()); ++i) {
-      const std::optional<Sweep> sweep = source.next();
-      if (!sweep) break;
-      const double period_s = source.info().period_s;
-      const std::optional<Sweep> raw = timed(*sweep, period_s);
-      if (!raw) break;
-      const SweepResult before = as_read.register_sweep(*sweep);
-      const SweepResult after = compensated.register_sweep(*raw);
-      if (i < kBeginning || !registered(before) || !registered(after) || !moved(after, period_s)) continue;
-      ++trial.sweeps;
-      trial.better += after.stats.residual_rms_m < before.stats.residual_rms_m ? 1 : 0;
-    }
-  } catch (const IoError&) {
-    // The run will meet and report it.
+  // One after the other: two maps at once would be the most memory of the whole run.
+  const auto fits = [&](bool with_times, std::size_t most) {
+    const auto source = open();
+    source->skip(start);
+    return fits_of(*source, config, with_times, most, interrupted);
+  };
+  const std::vector<Fit> compensated = fits(true, kMostSweeps);
+  const std::vector<Fit> as_read = fits(false, compensated.size());
+  for (std::size_t i = 0; i < as_read.size(); ++i) {
+    if (!compensated[i].compared || !as_read[i].compared) continue;
+    ++trial.sweeps;
+    trial.better += compensated[i].residual_rms_m < as_read[i].residual_rms_m ? 1 : 0;
   }
   return trial;
 }

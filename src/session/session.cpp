@@ -72,12 +72,11 @@ class Session::Impl {
   // Raw points without times are common, and nothing but the fit tells them from compensated ones.
   void try_order() {
     if (options_.point_times != PointTimes::kAuto || options_.one_pass || source_->info().has_point_times) return;
-    source_->skip(options_.start);
-    result_.trial = try_compensation(*source_, options_.config, options_.interrupted);
+    result_.trial = try_compensation(open_, options_.start, options_.config, options_.interrupted);
     if (result_.trial.raw()) {
       open_ = [open = std::move(open_)] { return detail::with_order_times(open()); };
+      source_ = open_();
     }
-    source_ = open_();
     for (SessionObserver* observer : observers_) observer->on_trial(result_.trial);
   }
 

@@ -80,8 +80,7 @@ class Sweeps final : public ScanSource {
 
 CompensationTrial trial_of(const std::vector<Sweep>& sweeps, const OdometryConfig& config = {},
                            const std::function<bool()>& interrupted = {}) {
-  Sweeps source(sweeps);
-  return try_compensation(source, config, interrupted);
+  return try_compensation([&] { return std::make_unique<Sweeps>(sweeps); }, 0, config, interrupted);
 }
 
 SessionResult run_of(const std::vector<Sweep>& sweeps, PointTimes point_times, bool one_pass = false) {
@@ -154,8 +153,9 @@ TEST(CompensationTrial, EndsWithTheDataAnErrorOrAnInterrupt) {
   EXPECT_FALSE(trial_of({}).raw());
   EXPECT_FALSE(trial_of({raw().sweeps.begin(), raw().sweeps.begin() + 8}).raw());
   EXPECT_EQ(trial_of(raw().sweeps, {}, [] { return true; }).sweeps, 0U);
-  Sweeps failing(raw().sweeps, 9);
-  EXPECT_LE(try_compensation(failing, {}, {}).sweeps, 6U);
+  const auto failing = [] { return std::make_unique<Sweeps>(raw().sweeps, 20); };
+  EXPECT_EQ(try_compensation(failing, 0, {}, {}).sweeps, 17U);
+  EXPECT_EQ(try_compensation(failing, 5, {}, {}).sweeps, 12U);
 }
 
 TEST(CompensationTrial, ARunTakesRawPointsAsRaw) {

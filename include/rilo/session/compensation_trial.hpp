@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 #include "rilo/io/scan_source.hpp"
 #include "rilo/odometry/odometry_config.hpp"
@@ -21,9 +22,11 @@ struct CompensationTrial {
   bool raw() const;
 };
 
-/// Reads the next sweeps of `source`, 100 at most, until 40 were compared. Empty when the first has times, when its
-/// points do not lie in order, or when nothing is compensated (`preprocess.deskew` off). Ends early at the end of the
-/// data, at an error, and when `interrupted` (empty: never) is true. The outcome does not depend on the threads.
-CompensationTrial try_compensation(ScanSource& source, OdometryConfig config, const std::function<bool()>& interrupted);
+/// Opens the data twice, leaves out `start` sweeps, and reads the next ones, 100 at most, until 40 were compared. Empty
+/// when the first has times, when its points do not lie in order, or when nothing is compensated (`preprocess.deskew`
+/// off). Ends early at the end of the data, at an error, and when `interrupted` (empty: never) is true. The outcome
+/// does not depend on the threads.
+CompensationTrial try_compensation(const std::function<std::unique_ptr<ScanSource>()>& open, std::size_t start,
+                                   OdometryConfig config, const std::function<bool()>& interrupted);
 
 }  // namespace rilo

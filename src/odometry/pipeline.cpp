@@ -101,7 +101,7 @@ const PreparedSweep& Pipeline::prepare(const SweepView& sweep, SweepResult& resu
   result.stats.times.preprocess_ms = clock_.lap_ms();
   const double passes = first ? Preprocessor::kFirstPasses : 1.0;
   budget_.learn(Work::kPrepare, passes * static_cast<double>(taken.points.size()), result.stats.times.preprocess_ms);
-  const SweepTime time = sweep_clock_.advance(prepared.mid_stamp_ns);
+  const SweepTime time = sweep_clock_.advance(prepared.mid_stamp_ns, prepared.mid_stamp_ns - sweep.stamp_ns);
   result.stamp_ns = time.stamp_ns;
   tracker_.advance(time);
   const Fingerprint before = std::exchange(fingerprint_, Fingerprint(sweep.points));

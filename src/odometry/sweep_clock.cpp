@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "geometry/median.hpp"
 
@@ -23,7 +24,8 @@ std::int64_t difference(std::int64_t later, std::int64_t earlier) {
 bool believable(std::int64_t step_ns) { return step_ns >= kShortestStepNs && step_ns <= kLongestStepNs; }
 }  // namespace
 
-SweepTime SweepClock::advance(std::int64_t given_ns) {
+SweepTime SweepClock::advance(std::int64_t given_ns, std::int64_t to_middle_ns) {
+  const std::int64_t shift_ns = difference(to_middle_ns, std::exchange(to_middle_ns_, to_middle_ns));
   if (!begun_) {
     begun_ = true;
     stamp_ns_ = given_ns_ = believed_ns_ = std::min(given_ns, kLatestNs);
@@ -42,8 +44,8 @@ SweepTime SweepClock::advance(std::int64_t given_ns) {
   }
   given_ns_ = given_ns;
   if (time.believed) {
-    remember(time.step_ns);
-    time.even_ns = last_even_ns();
+    remember(std::max<std::int64_t>(1, time.step_ns - shift_ns));
+    time.even_ns = std::max<std::int64_t>(1, last_even_ns() + shift_ns);
     believed_ns_ = given_ns;
     since_ns_ = 0;
   } else {

@@ -102,6 +102,19 @@ TEST(SweepClock, AnotherPeriodIsFollowed) {
   EXPECT_EQ(even_ms(clock, stamps).back(), 50);
 }
 
+// Later points are seen for the first time: the middle of the sweeps moves, the sensor spins evenly.
+TEST(SweepClock, AMiddleThatMovesIsNoDeviation) {
+  SweepClock clock;
+  const std::int64_t middles_us[] = {12'000, 49'000, 49'991, 49'991, 49'994, 49'999, 50'000};
+  for (std::int64_t i = 0; i < 7; ++i) {
+    const std::int64_t to_middle_ns = 1000 * middles_us[i];
+    const SweepTime time = clock.advance(100 * i * kMs + to_middle_ns, to_middle_ns);
+    EXPECT_EQ(time.stamp_ns, 100 * i * kMs + to_middle_ns);
+    EXPECT_EQ(time.step_ns, i == 0 ? 0 : 100 * kMs + 1000 * (middles_us[i] - middles_us[i - 1]));
+    EXPECT_EQ(time.even_ns, time.step_ns);
+  }
+}
+
 TEST(SweepClock, ExtremeStampsDoNotOverflow) {
   constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();

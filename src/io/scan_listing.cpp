@@ -154,8 +154,13 @@ void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const So
   listing.info.period_s = 1 / options.assumed_rate_hz;
   listing.info.stamps_assumed = true;
   const double period_ns = 1e9 / options.assumed_rate_hz;
-  for (std::size_t i = 0; i < listing.files.size(); ++i) {
-    listing.stamps_ns.push_back(std::llround(static_cast<double>(i) * period_ns));
+  std::vector<std::int64_t> places = places_from_names(listing.files);
+  if (places.empty()) {
+    places.resize(listing.files.size());
+    std::iota(places.begin(), places.end(), 0);
+  }
+  for (const std::int64_t place : places) {
+    listing.stamps_ns.push_back(std::llround(static_cast<double>(place) * period_ns));
   }
 }
 

@@ -197,6 +197,35 @@ TEST(FolderSourceTest, BadSweepIsSkippedWhenTold) {
   EXPECT_TRUE(has_warning(source->info(), "2 sweeps could not be read"));
 }
 
+TEST(FolderSourceTest, WithoutStampsNumbersTellWhichSweepsAreMissing) {
+  const auto steps_of = [](const std::vector<std::string>& names) {
+    const TempDir folder;
+    for (const std::string& name : names) folder.write(name, bytes_of<float>({1, 2, 3, 4}));
+    SourceOptions options;
+    options.assumed_rate_hz = 20;
+    const auto source = open_scan_source(folder.path(), options);
+    std::vector<std::int64_t> steps;
+    std::int64_t before = source->next()->stamp_ns;
+    while (const auto sweep = source->next()) {
+      steps.push_back((sweep->stamp_ns - before) / 50'000'000);
+      before = sweep->stamp_ns;
+    }
+    EXPECT_TRUE(source->info().stamps_assumed);
+    return steps;
+  };
+  using Steps = std::vector<std::int64_t>;
+  EXPECT_EQ(steps_of({"7.bin", "8.bin", "11.bin", "12.bin"}), (Steps{1, 3, 1}));
+  EXPECT_EQ(steps_of({"scan_000.bin", "scan_005.bin", "scan_015.bin", "scan_020.bin"}), (Steps{1, 2, 1}));
+  EXPECT_EQ(steps_of({"0001_a.bin", "0002_a.bin", "0004_a.bin"}), (Steps{1, 2}));
+  // Numbers that may mean something else.
+  EXPECT_EQ(steps_of({"1.bin", "2.bin", "40.bin"}), (Steps{1, 1}));
+  EXPECT_EQ(steps_of({"a1.bin", "b2.bin", "b4.bin"}), (Steps{1, 1}));
+  EXPECT_EQ(steps_of({"a.bin", "b.bin"}), (Steps{1}));
+  EXPECT_EQ(steps_of({"1_1.bin", "1_2.bin", "2_1.bin"}), (Steps{1, 1}));
+  EXPECT_EQ(steps_of({"1234567890.bin", "1234567891.bin", "1234567893.bin"}), (Steps{1, 1}));
+  EXPECT_EQ(steps_of({"01.bin", "1.bin", "3.bin"}), (Steps{1, 1}));
+}
+
 TEST(FolderSourceTest, EmptyAndNanSweepsAreSweeps) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const TempDir folder;

@@ -1,4 +1,4 @@
-#include "rilo/session/compensation_trial.hpp"
+#include "session/compensation_trial.hpp"
 
 #include <optional>
 #include <utility>
@@ -69,8 +69,8 @@ bool CompensationTrial::raw() const {
   return decided() && static_cast<double>(better) >= kRawShare * static_cast<double>(sweeps);
 }
 
-CompensationTrial try_compensation(const std::function<std::unique_ptr<ScanSource>()>& open, std::size_t start,
-                                   OdometryConfig config, const std::function<bool()>& interrupted) {
+CompensationTrial try_compensation(const OpenSource& open, std::size_t start, OdometryConfig config,
+                                   const std::function<bool()>& interrupted) {
   CompensationTrial trial;
   if (!config.preprocess.deskew) return trial;
   config.budget.sweep_ms = 0;  // what is cut depends on the machine

@@ -10,6 +10,7 @@
 #include "geometry/degrees.hpp"
 #include "io/source_wrappers.hpp"
 #include "rilo/io/point_times.hpp"
+#include "session/compensation_trial.hpp"
 #include "session/process_memory.hpp"
 #include "session/steady_clock.hpp"
 

@@ -1,5 +1,5 @@
 // Raw or compensated: points without times, told apart by how they fit.
-#include "rilo/session/compensation_trial.hpp"
+#include "session/compensation_trial.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -17,7 +17,6 @@
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 #include "rilo/odometry/sweep_result.hpp"
-#include "rilo/session/compensation_trial.hpp"
 #include "rilo/session/session_observer.hpp"
 
 namespace rilo {

@@ -11,7 +11,6 @@
 #include "rilo/cloud/thinned_map.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/odometry/sweep_result.hpp"
-#include "rilo/session/compensation_trial.hpp"
 
 namespace rilo {
 
@@ -27,6 +26,18 @@ struct RegisteredSweep {
 struct Restart {
   std::size_t after_sweeps;     ///< registered in the first pass
   double elevation_offset_deg;  ///< found there, applied from the first sweep of the second pass on
+};
+
+/// The same sweeps, registered as they are and with the times of order_times(): with them, raw points are nearer to the
+/// planes of the map, compensated ones are not.
+struct CompensationTrial {
+  std::size_t sweeps = 0;  ///< compared: those during which the sensor moved by more than the noise of good poses
+  std::size_t better = 0;  ///< of these, with the times
+
+  /// At least ten sweeps were compared.
+  bool decided() const;
+  /// Decided, and 0.6 of the sweeps are better.
+  bool raw() const;
 };
 
 /// Called by Session::run(), on its thread, in the order of the events. An exception ends the run and

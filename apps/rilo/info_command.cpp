@@ -22,6 +22,7 @@
 #include "rilo/io/point_times.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "rilo/io/trajectory_files.hpp"
+#include "session/compensation_trial.hpp"
 #include "source_flags.hpp"
 
 namespace rilo::cli {
@@ -104,6 +105,15 @@ Survey survey_of(ScanSource& source, bool all) {
     survey.sweeps += 1 + source.skip(step - 1);
   }
   return survey;
+}
+
+/// Raw or compensated, by how the first sweeps fit.
+nlohmann::json compensation_json(const InfoFlags& flags) {
+  if (flags.source.options.point_times == PointTimes::kNone) return nullptr;
+  const OpenSource open = [&flags] { return open_scan_source(flags.data, flags.source.options); };
+  const CompensationTrial trial = try_compensation(open, 0, {}, {});
+  return {
+      {"sweeps", trial.sweeps}, {"better", trial.better}, {"raw", trial.raw()}, {"compensated", trial.compensated()}};
 }
 
 nlohmann::json range_percentiles(std::vector<double> ranges) {
@@ -202,6 +212,7 @@ nlohmann::json describe(const InfoFlags& flags, ScanSource& source) {
       {"directions", directions_json(survey)},
       {"stamps", stamps_json(survey, info, complete)},
       {"point_times", {{"source", info.point_times}, {"in_order", survey.in_order}}},
+      {"compensation", compensation_json(flags)},
       {"intensity", survey.intensity},
       {"rings", survey.rings},
       {"calibration", info.T_cam_lidar.has_value()},
@@ -223,7 +234,11 @@ nlohmann::json describe(const InfoFlags& flags, ScanSource& source) {
 /// What to run next. Whether points without times are raw cannot be seen from single sweeps.
 std::string advice(const nlohmann::json& j) {
   const std::string run = "rilo run " + shell_quoted(word(j["data"])) + " --out results";
-  if (j["point_times"].contains("begin_s")) return "to run it     " + run + "\n";
+  const auto& compensation = j["compensation"];
+  if (j["point_times"].contains("begin_s")) {
+    const bool twice = !compensation.is_null() && compensation["compensated"].get<bool>();
+    return "to run it     " + run + (twice ? " --point-times none\n" : "\n");
+  }
   if (j["point_times"]["in_order"].get<bool>()) {
     return "to run it     " + run + "   (finds out whether the points are raw)\n" + "              " + run +
            " --point-times order   (they are)\n" + "              " + run +
@@ -231,6 +246,18 @@ std::string advice(const nlohmann::json& j) {
   }
   return "to run it     " + run + " --point-times azimuth   (raw points of a spinning sensor)\n" + "              " +
          run + " --point-times none      (points that are motion-compensated)\n";
+}
+
+std::string compensation_text(const nlohmann::json& trial) {
+  if (trial.is_null() || count(trial["sweeps"]) == 0) return "";
+  const bool raw = trial["raw"].get<bool>();
+  const bool compensated = trial["compensated"].get<bool>();
+  return fmt::format(
+      "motion        {} of {} sweeps fit better when their points are compensated with their times: {}\n",
+      count(trial["better"]), count(trial["sweeps"]),
+      raw           ? "raw points"
+      : compensated ? "they are compensated already"
+                    : "not certain");
 }
 
 std::string as_text(const nlohmann::json& j) {
@@ -271,8 +298,9 @@ std::string as_text(const nlohmann::json& j) {
   if (j["point_times"].contains("begin_s")) {
     text += fmt::format(", {:.4f} … {:.4f} s", real(j["point_times"]["begin_s"]), real(j["point_times"]["end_s"]));
   }
+  text += '\n' + compensation_text(j["compensation"]);
   const int rings = j["rings"].get<int>();
-  text += fmt::format("\nfields        intensity: {}; ring: {}\n", j["intensity"].get<bool>() ? "yes" : "no",
+  text += fmt::format("fields        intensity: {}; ring: {}\n", j["intensity"].get<bool>() ? "yes" : "no",
                       rings == 0 ? "no" : fmt::format("0 … {}", rings - 1));
   text += fmt::format("calibration   {}\n", j["calibration"].get<bool>() ? "LiDAR to camera (Tr)" : "none");
   const auto& truth = j["truth"];

@@ -53,7 +53,7 @@ void ProgressLine::on_registered(const RegisteredSweep& sweep) {
 }
 
 void ProgressLine::on_trial(const CompensationTrial& trial) {
-  if (!trial.decided()) return;
+  if (!trial.raw() && !trial.compensated()) return;
   note_given_ = true;
   progress_.say(fmt::format(
       "rilo: note: no per-point times; {} of {} sweeps fit better with those of the points' order: taken as {} "

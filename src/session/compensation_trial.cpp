@@ -14,10 +14,11 @@ namespace {
 
 constexpr std::size_t kEnough = 40;  // compared sweeps
 constexpr std::size_t kLeast = 10;
-constexpr double kRawShare = 0.6;         // better: at least 0.75 of raw sweeps, at most 0.31 of compensated ones
-constexpr std::size_t kMostSweeps = 100;  // one that stands for longer is not compared
-constexpr std::size_t kBeginning = 3;     // sweeps of a map that is still built with guesses
-constexpr double kMovedM = 0.1;           // during a sweep, or ...
+constexpr double kRawShare = 0.6;          // better: at least 0.75 of raw sweeps, ...
+constexpr double kCompensatedShare = 0.4;  // ... at most 0.38 of compensated ones
+constexpr std::size_t kMostSweeps = 100;   // one that stands for longer is not compared
+constexpr std::size_t kBeginning = 3;      // sweeps of a map that is still built with guesses
+constexpr double kMovedM = 0.1;            // during a sweep, or ...
 constexpr double kTurnedRad = 0.02;
 
 bool registered(const SweepResult& result) {
@@ -34,22 +35,29 @@ struct Fit {
   double residual_rms_m = 0;
 };
 
+/// False when it has none and its points do not lie in order.
+bool give_times(Sweep& sweep, double period_s) {
+  if (!sweep.times_s.empty()) return true;
+  auto times = order_times(sweep.points, period_s);
+  if (!times) return false;
+  sweep.times_s = std::move(*times);
+  return true;
+}
+
 /// Of at most `most` sweeps of `source`; with times, until enough moved.
 std::vector<Fit> fits_of(ScanSource& source, const OdometryConfig& config, bool with_times, std::size_t most,
-                         const std::function<bool()>& interrupted) {
+                         const std::function<bool()>& interrupted, CompensationTrial& trial) {
   std::vector<Fit> fits;
   Odometry odometry(config);
   std::size_t compared = 0;
   try {
     while (fits.size() < most && compared < kEnough && !(interrupted && interrupted())) {
       std::optional<Sweep> sweep = source.next();
-      if (!sweep || !sweep->times_s.empty()) break;
+      if (!sweep) break;
       const double period_s = source.info().period_s;
-      if (with_times) {
-        auto times = order_times(sweep->points, period_s);
-        if (!times) break;
-        sweep->times_s = std::move(*times);
-      }
+      trial.timed = !sweep->times_s.empty();
+      if (with_times && !give_times(*sweep, period_s)) break;
+      if (!with_times) sweep->times_s.clear();
       const SweepResult result = odometry.register_sweep(*sweep);
       const bool usable = fits.size() >= kBeginning && registered(result);
       fits.push_back({usable && (!with_times || moved(result, period_s)), result.stats.residual_rms_m});
@@ -63,10 +71,12 @@ std::vector<Fit> fits_of(ScanSource& source, const OdometryConfig& config, bool 
 
 }  // namespace
 
-bool CompensationTrial::decided() const { return sweeps >= kLeast; }
-
 bool CompensationTrial::raw() const {
-  return decided() && static_cast<double>(better) >= kRawShare * static_cast<double>(sweeps);
+  return sweeps >= kLeast && static_cast<double>(better) >= kRawShare * static_cast<double>(sweeps);
+}
+
+bool CompensationTrial::compensated() const {
+  return sweeps >= kLeast && static_cast<double>(better) <= kCompensatedShare * static_cast<double>(sweeps);
 }
 
 CompensationTrial try_compensation(const OpenSource& open, std::size_t start, OdometryConfig config,
@@ -78,7 +88,7 @@ CompensationTrial try_compensation(const OpenSource& open, std::size_t start, Od
   const auto fits = [&](bool with_times, std::size_t most) {
     const auto source = open();
     source->skip(start);
-    return fits_of(*source, config, with_times, most, interrupted);
+    return fits_of(*source, config, with_times, most, interrupted, trial);
   };
   const std::vector<Fit> compensated = fits(true, kMostSweeps);
   const std::vector<Fit> as_read = fits(false, compensated.size());

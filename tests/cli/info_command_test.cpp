@@ -30,6 +30,24 @@ TEST(InfoCommand, TextOfADrive) {
   EXPECT_EQ(info.err, "");
 }
 
+TEST(InfoCommand, SaysWhetherPointsAreRaw) {
+  const TempDir folder;
+  const auto of = [&folder](const char* name, const std::vector<std::string>& flags) {
+    std::vector<std::string> simulate = {"simulate", "--out", folder / name, "--sensor", "vlp16",
+                                         "--sweeps", "25",    "--start",     "10",       "--quiet"};
+    simulate.insert(simulate.end(), flags.begin(), flags.end());
+    rilo_succeeds(simulate);
+    return rilo_succeeds({"info", folder / name}).out;
+  };
+  expect_parts(of("raw", {}), {"of 22 sweeps fit better", "raw points"});
+  expect_parts(of("compensated", {"--deskewed"}), {"of 22 sweeps fit better", "compensated already"});
+  // Compensated, but with times: as some data sets are.
+  std::filesystem::copy(folder / "raw" / "times_pt", folder / "compensated" / "times_pt");
+  expect_parts(rilo_succeeds({"info", folder / "compensated"}).out,
+               {"compensated already", "--out results --point-times none\n"});
+  EXPECT_EQ(rilo_succeeds({"info", folder / "raw", "--point-times", "none"}).out.find("motion  "), std::string::npos);
+}
+
 TEST(InfoCommand, WithoutPointTimesItAsksWhetherThePointsAreRaw) {
   const TempDir folder;
   const Outcome in_order = rilo_succeeds({"info", long_folder(folder, 3)});

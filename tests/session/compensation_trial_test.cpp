@@ -114,6 +114,21 @@ TEST(CompensationTrial, CompensatedOnesDoNot) {
   EXPECT_EQ(trial.sweeps, kTrialSweeps - 3);
   EXPECT_LE(trial.better, 9U);
   EXPECT_FALSE(trial.raw());
+  EXPECT_TRUE(trial.compensated());
+}
+
+TEST(CompensationTrial, TimedSweepsAreTriedWithTheirTimes) {
+  for (const bool is_raw : {false, true}) {
+    std::vector<Sweep> timed = is_raw ? raw().sweeps : compensated().sweeps;
+    for (Sweep& sweep : timed) sweep.times_s = *order_times(sweep.points, kPeriodS);
+    const CompensationTrial trial = trial_of(timed);
+    EXPECT_TRUE(trial.timed);
+    EXPECT_EQ(trial.raw(), is_raw);
+    EXPECT_EQ(trial.compensated(), !is_raw);
+    // A run takes the times that it is given.
+    const SessionResult run = run_of(timed, PointTimes::kAuto);
+    EXPECT_EQ(poses_of(run), poses_of(run_of(timed, PointTimes::kNone)));
+  }
 }
 
 TEST(CompensationTrial, DoesNotDependOnThreadsOrBudget) {
@@ -131,15 +146,11 @@ TEST(CompensationTrial, DoesNotDependOnThreadsOrBudget) {
 TEST(CompensationTrial, WhatStandsTellsNothing) {
   const CompensationTrial trial = trial_of(std::vector<Sweep>(kTrialSweeps, raw().sweeps[0]));
   EXPECT_EQ(trial.sweeps, 0U);
-  EXPECT_FALSE(trial.decided());
   EXPECT_FALSE(trial.raw());
+  EXPECT_FALSE(trial.compensated());
 }
 
 TEST(CompensationTrial, NotOfOtherSweeps) {
-  std::vector<Sweep> timed = raw().sweeps;
-  for (Sweep& sweep : timed) sweep.times_s = *order_times(sweep.points, kPeriodS);
-  EXPECT_EQ(trial_of(timed).sweeps, 0U);
-
   std::vector<Sweep> other_order = raw().sweeps;
   for (Sweep& sweep : other_order) std::reverse(sweep.points.begin() + 5000, sweep.points.end());
   EXPECT_EQ(trial_of(other_order).sweeps, 0U);

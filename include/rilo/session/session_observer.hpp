@@ -28,16 +28,17 @@ struct Restart {
   double elevation_offset_deg;  ///< found there, applied from the first sweep of the second pass on
 };
 
-/// The same sweeps, registered as they are and with the times of order_times(): with them, raw points are nearer to the
-/// planes of the map, compensated ones are not.
+/// The same sweeps, registered without times and with them, their own or those of order_times(): with them, raw points
+/// are nearer to the planes of the map, compensated ones are not.
 struct CompensationTrial {
+  bool timed = false;      ///< they have times of their own
   std::size_t sweeps = 0;  ///< compared: those during which the sensor moved by more than the noise of good poses
   std::size_t better = 0;  ///< of these, with the times
 
-  /// At least ten sweeps were compared.
-  bool decided() const;
-  /// Decided, and 0.6 of the sweeps are better.
+  /// At least ten sweeps were compared, and 0.6 of them are better.
   bool raw() const;
+  /// At least ten sweeps were compared, and at most 0.4 of them are better.
+  bool compensated() const;
 };
 
 /// Called by Session::run(), on its thread, in the order of the events. An exception ends the run and

@@ -16,6 +16,7 @@ constexpr std::size_t kEnough = 40;  // compared sweeps
 constexpr std::size_t kLeast = 10;
 constexpr double kRawShare = 0.6;          // better: at least 0.75 of raw sweeps, ...
 constexpr double kCompensatedShare = 0.4;  // ... at most 0.38 of compensated ones
+constexpr double kMostLost = 0.1;          // of the compared sweeps
 constexpr std::size_t kMostSweeps = 100;   // one that stands for longer is not compared
 constexpr std::size_t kBeginning = 3;      // sweeps of a map that is still built with guesses
 constexpr double kMovedM = 0.1;            // during a sweep, or ...
@@ -24,6 +25,8 @@ constexpr double kTurnedRad = 0.02;
 bool registered(const SweepResult& result) {
   return result.status == OdometryStatus::kOk || result.status == OdometryStatus::kDegenerate;
 }
+
+bool tracked(const SweepResult& result) { return registered(result) || result.status == OdometryStatus::kRecovered; }
 
 bool moved(const SweepResult& result, double period_s) {
   return period_s * result.twist.head<3>().norm() > kTurnedRad || period_s * result.twist.tail<3>().norm() > kMovedM;
@@ -59,6 +62,7 @@ std::vector<Fit> fits_of(ScanSource& source, const OdometryConfig& config, bool 
       if (with_times && !give_times(*sweep, period_s)) break;
       if (!with_times) sweep->times_s.clear();
       const SweepResult result = odometry.register_sweep(*sweep);
+      trial.lost += with_times && !fits.empty() && !tracked(result) ? 1 : 0;
       const bool usable = fits.size() >= kBeginning && registered(result);
       fits.push_back({usable && (!with_times || moved(result, period_s)), result.stats.residual_rms_m});
       compared += with_times && fits.back().compared ? 1 : 0;
@@ -71,12 +75,16 @@ std::vector<Fit> fits_of(ScanSource& source, const OdometryConfig& config, bool 
 
 }  // namespace
 
+bool CompensationTrial::certain() const {
+  return sweeps >= kLeast && static_cast<double>(lost) <= kMostLost * static_cast<double>(sweeps);
+}
+
 bool CompensationTrial::raw() const {
-  return sweeps >= kLeast && static_cast<double>(better) >= kRawShare * static_cast<double>(sweeps);
+  return certain() && static_cast<double>(better) >= kRawShare * static_cast<double>(sweeps);
 }
 
 bool CompensationTrial::compensated() const {
-  return sweeps >= kLeast && static_cast<double>(better) <= kCompensatedShare * static_cast<double>(sweeps);
+  return certain() && static_cast<double>(better) <= kCompensatedShare * static_cast<double>(sweeps);
 }
 
 CompensationTrial try_compensation(const OpenSource& open, std::size_t start, OdometryConfig config,

@@ -160,6 +160,24 @@ TEST(CompensationTrial, NotOfOtherSweeps) {
   EXPECT_EQ(trial_of(raw().sweeps, without).sweeps, 0U);
 }
 
+// Which is what makes points of a wrong path fit.
+TEST(CompensationTrial, NotCertainWhereSweepsAreLost) {
+  std::vector<Sweep> torn;
+  for (std::size_t i = 0; i < 12; ++i) {
+    torn.push_back(raw().sweeps[2 * i]);
+    torn.push_back(raw().sweeps[kTrialSweeps - 1]);
+    torn.back().points.resize(torn.back().points.size() / 2);
+  }
+  const CompensationTrial trial = trial_of(torn);
+  EXPECT_GT(trial.lost, 3U);
+  EXPECT_FALSE(trial.certain());
+  EXPECT_EQ(trial_of(raw().sweeps).lost, 0U);
+  CompensationTrial few_lost{false, 30, 30, 3};
+  EXPECT_TRUE(few_lost.raw());
+  few_lost.lost = 4;
+  EXPECT_FALSE(few_lost.raw());
+}
+
 TEST(CompensationTrial, EndsWithTheDataAnErrorOrAnInterrupt) {
   EXPECT_FALSE(trial_of({}).raw());
   EXPECT_FALSE(trial_of({raw().sweeps.begin(), raw().sweeps.begin() + 8}).raw());

@@ -34,10 +34,13 @@ struct CompensationTrial {
   bool timed = false;      ///< they have times of their own
   std::size_t sweeps = 0;  ///< compared: those during which the sensor moved by more than the noise of good poses
   std::size_t better = 0;  ///< of these, with the times
+  std::size_t lost = 0;    ///< with the times, or where a map had to begin again: what fits a wrong path says nothing
 
-  /// At least ten sweeps were compared, and 0.6 of them are better.
+  /// At least ten sweeps were compared, and hardly any was lost.
+  bool certain() const;
+  /// Certain, and 0.6 of the sweeps are better.
   bool raw() const;
-  /// At least ten sweeps were compared, and at most 0.4 of them are better.
+  /// Certain, and at most 0.4 of the sweeps are better.
   bool compensated() const;
 };
 

@@ -48,7 +48,7 @@ TEST(DescribeCommand, BashCompletes) {
   for (const std::string& command : kCommands) EXPECT_TRUE(commands.count(command)) << command;
   EXPECT_EQ(completed(folder, {"rilo", "rep"}), std::set<std::string>{"report"});
   EXPECT_EQ(completed(folder, {"rilo", "run", "data", "--point-times", ""}),
-            (std::set<std::string>{"auto", "azimuth", "data", "none"}));
+            (std::set<std::string>{"auto", "azimuth", "data", "none", "order"}));
   EXPECT_EQ(completed(folder, {"rilo", "run", "--skip-b"}), std::set<std::string>{"--skip-bad-sweeps"});
   EXPECT_EQ(completed(folder, {"rilo", "bench", "kit"}), std::set<std::string>{"kitti"});
   EXPECT_TRUE(completed(folder, {"rilo", "bench", "kitti", "--"}).count("--baseline"));

@@ -9,20 +9,16 @@
 namespace rilo::detail {
 namespace {
 
-class ElevationCorrectedSource final : public ScanSource {
+class ElevationCorrectedSource final : public WrappedSource {
  public:
   ElevationCorrectedSource(std::unique_ptr<ScanSource> inner, double offset_deg)
-      : inner_(std::move(inner)), offset_deg_(offset_deg) {}
+      : WrappedSource(std::move(inner)), offset_deg_(offset_deg) {}
 
   std::optional<Sweep> next() override {
     std::optional<Sweep> sweep = inner_->next();
     if (sweep) correct_elevation(sweep->points, offset_deg_);
     return sweep;
   }
-  std::size_t skip(std::size_t count) override { return inner_->skip(count); }
-  std::optional<std::size_t> size() const override { return inner_->size(); }
-  std::size_t current_index() const override { return inner_->current_index(); }
-  std::string current_name() const override { return inner_->current_name(); }
   SourceInfo info() const override {
     SourceInfo info = inner_->info();
     info.elevation_correction_deg += offset_deg_;
@@ -30,7 +26,6 @@ class ElevationCorrectedSource final : public ScanSource {
   }
 
  private:
-  std::unique_ptr<ScanSource> inner_;
   double offset_deg_;
 };
 

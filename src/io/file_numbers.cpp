@@ -31,9 +31,8 @@ NumberedName number_of(const fs::path& file) {
   return name;
 }
 
-}  // namespace
-
-std::vector<std::int64_t> places_from_names(const std::vector<fs::path>& files) {
+/// Empty where the numbers may mean something else.
+std::vector<std::int64_t> numbered_places(const std::vector<fs::path>& files) {
   std::vector<std::int64_t> places;
   std::int64_t unit = 0;
   NumberedName first;
@@ -50,6 +49,17 @@ std::vector<std::int64_t> places_from_names(const std::vector<fs::path>& files) 
   for (std::int64_t& place : places) place /= unit;
   const auto most = kMostPerSweep * static_cast<std::int64_t>(files.size());
   return places.back() < most ? places : std::vector<std::int64_t>{};
+}
+
+}  // namespace
+
+std::vector<std::int64_t> places_from_names(const std::vector<fs::path>& files) {
+  std::vector<std::int64_t> places = numbered_places(files);
+  if (places.empty()) {
+    places.resize(files.size());
+    std::iota(places.begin(), places.end(), 0);
+  }
+  return places;
 }
 
 }  // namespace rilo::detail

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "io/measured_point.hpp"
 #include "io/source_wrappers.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
@@ -25,14 +26,12 @@ struct Turn {
 };
 using Turns = std::array<Turn, kBlocks>;
 
-bool is_measured(const Eigen::Vector3f& p) { return p.allFinite() && p.head<2>().squaredNorm() > 0; }
-
 /// Nothing when there are too few points.
 std::optional<Turns> turns_of(const std::vector<Eigen::Vector3f>& points) {
   std::vector<std::size_t> measured;
   measured.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_measured(points[i])) measured.push_back(i);
+    if (detail::is_measured(points[i])) measured.push_back(i);
   }
   if (measured.size() < kBlocks * kLeastInBlock) return std::nullopt;
   Turns turns;
@@ -66,12 +65,18 @@ bool one_way(const Turns& turns) {
   return static_cast<double>(same) >= kOneWay * (kBlocks - 1) && swept >= kLeastSwept && swept <= kMostSwept;
 }
 
-double turned_at(const Turns& turns, double index) {
-  const auto above = std::upper_bound(turns.begin() + 1, turns.end() - 1, index,
-                                      [](double value, const Turn& turn) { return value < turn.index; });
-  const Turn& a = *(above - 1);  // the ends are extrapolated
-  const Turn& b = *above;
-  return a.revolutions + (index - a.index) / (b.index - a.index) * (b.revolutions - a.revolutions);
+/// How far the sensor had turned at each point; before the first block and after the last as in them.
+std::vector<double> turned_at_points(const Turns& turns, std::size_t points) {
+  std::vector<double> turned(points);
+  std::size_t block = 0;
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto index = static_cast<double>(i);
+    while (block + 2 < kBlocks && index >= turns[block + 1].index) ++block;
+    const Turn& a = turns[block];
+    const Turn& b = turns[block + 1];
+    turned[i] = a.revolutions + (index - a.index) / (b.index - a.index) * (b.revolutions - a.revolutions);
+  }
+  return turned;
 }
 
 std::vector<float> times_by_index(std::size_t points, double period_s) {
@@ -82,9 +87,9 @@ std::vector<float> times_by_index(std::size_t points, double period_s) {
   return times;
 }
 
-class OrderTimedSource final : public ScanSource {
+class OrderTimedSource final : public detail::WrappedSource {
  public:
-  explicit OrderTimedSource(std::unique_ptr<ScanSource> inner) : inner_(std::move(inner)) {}
+  using WrappedSource::WrappedSource;
 
   std::optional<Sweep> next() override {
     std::optional<Sweep> sweep = inner_->next();
@@ -103,10 +108,6 @@ class OrderTimedSource final : public ScanSource {
     }
     return sweep;
   }
-  std::size_t skip(std::size_t count) override { return inner_->skip(count); }
-  std::optional<std::size_t> size() const override { return inner_->size(); }
-  std::size_t current_index() const override { return inner_->current_index(); }
-  std::string current_name() const override { return inner_->current_name(); }
   SourceInfo info() const override {
     SourceInfo info = inner_->info();
     info.has_point_times = true;
@@ -115,7 +116,6 @@ class OrderTimedSource final : public ScanSource {
   }
 
  private:
-  std::unique_ptr<ScanSource> inner_;
   bool in_order_ =
       false;  // as a sweep has shown; a later one that does not, where most of it is covered, is taken to be
 };
@@ -125,12 +125,11 @@ class OrderTimedSource final : public ScanSource {
 std::optional<std::vector<float>> order_times(const std::vector<Eigen::Vector3f>& points, double period_s) {
   const std::optional<Turns> turns = turns_of(points);
   if (!turns || !one_way(*turns)) return std::nullopt;
-  const double first = turned_at(*turns, 0);
-  const double swept = turned_at(*turns, static_cast<double>(points.size() - 1)) - first;
+  const std::vector<double> turned = turned_at_points(*turns, points.size());
+  const double swept = turned.back() - turned.front();
   std::vector<float> times(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double share = (turned_at(*turns, static_cast<double>(i)) - first) / swept;
-    times[i] = static_cast<float>(period_s * std::clamp(share, 0.0, 1.0));
+    times[i] = static_cast<float>(period_s * std::clamp((turned[i] - turned.front()) / swept, 0.0, 1.0));
   }
   return times;
 }

@@ -8,12 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "io/measured_point.hpp"
 #include "io/stamp_difference.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
 namespace {
+
+using detail::is_measured;  // the time of another point means nothing
 
 // Without a known period, a sweep lasts between these (s). The range covers less than a factor of 1000, so that at most
 // one of s, ms, µs and ns fits; times that start again in every packet (1.3 ms) fit none.
@@ -42,12 +45,6 @@ double seconds_per(PointTimeUnit unit, double period_s) {
       break;
   }
   return 1;
-}
-
-// Else the point is not a measurement, and its time means nothing.
-bool is_measured(const Eigen::Vector3f& point) {
-  const float square = point.squaredNorm();
-  return square > 0 && square <= std::numeric_limits<float>::max();
 }
 
 std::string number(double value) { return fmt::format("{:.10g}", value); }

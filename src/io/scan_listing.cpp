@@ -154,12 +154,7 @@ void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const So
   listing.info.period_s = 1 / options.assumed_rate_hz;
   listing.info.stamps_assumed = true;
   const double period_ns = 1e9 / options.assumed_rate_hz;
-  std::vector<std::int64_t> places = places_from_names(listing.files);
-  if (places.empty()) {
-    places.resize(listing.files.size());
-    std::iota(places.begin(), places.end(), 0);
-  }
-  for (const std::int64_t place : places) {
+  for (const std::int64_t place : places_from_names(listing.files)) {
     listing.stamps_ns.push_back(std::llround(static_cast<double>(place) * period_ns));
   }
 }

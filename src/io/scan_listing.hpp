@@ -69,8 +69,8 @@ std::vector<std::filesystem::path> files_with(const std::filesystem::path& folde
 std::vector<std::int64_t> stamps_from_names(const std::vector<std::filesystem::path>& files);
 
 /// Places in the recording of files that are numbered, from 0: 7.pcd, 8.pcd, 11.pcd have 0, 1, 4, and 0.bin, 5.bin,
-/// 15.bin 0, 1, 3. Empty unless the names differ in an increasing number of at most nine digits alone, of which a
-/// quarter is there.
+/// 15.bin 0, 1, 3. One after the other unless the names differ in an increasing number of at most nine digits alone, of
+/// which a quarter is there.
 std::vector<std::int64_t> places_from_names(const std::vector<std::filesystem::path>& files);
 
 /// Mean of the steps that move forward, in s, without gaps and bursts, which are off by more than half of the median

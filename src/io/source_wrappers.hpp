@@ -3,6 +3,9 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,6 +13,22 @@
 #include "rilo/io/scan_source.hpp"
 
 namespace rilo::detail {
+
+/// Another source, as it is; what derives from it changes its sweeps.
+class WrappedSource : public ScanSource {
+ public:
+  explicit WrappedSource(std::unique_ptr<ScanSource> inner) : inner_(std::move(inner)) {}
+
+  std::optional<Sweep> next() override { return inner_->next(); }
+  std::size_t skip(std::size_t count) override { return inner_->skip(count); }
+  std::optional<std::size_t> size() const override { return inner_->size(); }
+  std::size_t current_index() const override { return inner_->current_index(); }
+  std::string current_name() const override { return inner_->current_name(); }
+  SourceInfo info() const override { return inner_->info(); }
+
+ protected:
+  std::unique_ptr<ScanSource> inner_;  // NOLINT(*-non-private-member-variables-in-classes)
+};
 
 /// Watches the stamps of `inner`: counts gaps, drops duplicates and sweeps that come after a newer one, and goes
 /// on when the clock was set back. See StampFaults.

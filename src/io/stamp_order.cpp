@@ -21,9 +21,9 @@ constexpr std::int64_t kClockJumpNs = 1'000'000'000;
 constexpr std::size_t kMostInARow = 5;
 constexpr std::size_t kMostWarnings = 20;
 
-class StampOrder final : public ScanSource {
+class StampOrder final : public WrappedSource {
  public:
-  explicit StampOrder(std::unique_ptr<ScanSource> inner) : inner_(std::move(inner)) {}
+  using WrappedSource::WrappedSource;
 
   std::optional<Sweep> next() override {
     while (auto sweep = inner_->next()) {
@@ -36,9 +36,6 @@ class StampOrder final : public ScanSource {
     skipped_ = skipped_ || count > 0;
     return inner_->skip(count);
   }
-  std::optional<std::size_t> size() const override { return inner_->size(); }
-  std::size_t current_index() const override { return inner_->current_index(); }
-  std::string current_name() const override { return inner_->current_name(); }
 
   SourceInfo info() const override {
     SourceInfo info = inner_->info();
@@ -100,7 +97,6 @@ class StampOrder final : public ScanSource {
     if (warnings_.size() == kMostWarnings) warnings_.emplace_back("more faults of the stamps are counted, not listed");
   }
 
-  std::unique_ptr<ScanSource> inner_;
   StampFaults faults_;
   std::vector<std::string> warnings_;
   std::optional<std::int64_t> newest_;

@@ -167,7 +167,8 @@ SessionOptions session_options(const RunRequest& flags, const OdometryConfig& co
   options.start = flags.start;
   options.count = flags.count;
   options.one_pass = flags.one_pass;
-  options.point_times = flags.source.options.point_times;
+  // Times of the data that are asked for are not replaced by others.
+  options.point_times = flags.source.times_needed ? PointTimes::kNone : flags.source.options.point_times;
   options.keep_intensities = flags.map_intensity;
   options.interrupted = [] { return InterruptGuard::signal() != 0; };
   return options;

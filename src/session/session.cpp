@@ -74,11 +74,11 @@ class Session::Impl {
   void try_order() {
     if (options_.point_times != PointTimes::kAuto || options_.one_pass || source_->info().has_point_times) return;
     result_.trial = try_compensation(open_, options_.start, options_.config, options_.interrupted);
-    if (result_.trial.raw() && !result_.trial.timed) {
+    if (result_.trial.timed) return;
+    if (result_.trial.raw()) {
       open_ = [open = std::move(open_)] { return detail::with_order_times(open()); };
       source_ = open_();
     }
-    if (result_.trial.timed) return;
     for (SessionObserver* observer : observers_) observer->on_trial(result_.trial);
   }
 

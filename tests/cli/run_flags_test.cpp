@@ -73,6 +73,7 @@ TEST(RunFlags, RawPointsWithoutTimesAreFoundOut) {
   const auto [found, poses] = run("auto", {});
   EXPECT_TRUE(found);
   EXPECT_EQ(run("order", {"--point-times", "order"}), std::pair(false, poses));
+  rilo_fails(3, {"run", drive, "--point-times", "data"}, {"no per-point times", "--point-times data"});
   const auto none = run("none", {"--point-times", "none", "--one-pass"});
   EXPECT_NE(none.second, poses);
   EXPECT_EQ(run("one", {"--one-pass"}), none);

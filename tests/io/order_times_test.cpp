@@ -8,6 +8,7 @@
 
 #include "io/io_test_util.hpp"
 #include "io/source_wrappers.hpp"
+#include "io/sweeps_source.hpp"
 #include "rilo/io/point_times.hpp"
 
 namespace rilo {
@@ -113,37 +114,16 @@ TEST(OrderTimes, NoneWhereNothingCanBeTold) {
   EXPECT_FALSE(order_times(std::vector<Eigen::Vector3f>(5000, Eigen::Vector3f(nan, 0, 3)), kPeriod));
 }
 
-class Clouds final : public ScanSource {
- public:
-  explicit Clouds(std::vector<std::vector<Eigen::Vector3f>> clouds) : clouds_(std::move(clouds)) {}
-  std::optional<Sweep> next() override {
-    if (at_ == clouds_.size()) return std::nullopt;
-    Sweep sweep;
-    sweep.points = clouds_[at_++];
-    return sweep;
-  }
-  std::size_t skip(std::size_t count) override {
-    at_ += count;
-    return count;
-  }
-  std::optional<std::size_t> size() const override { return clouds_.size(); }
-  std::size_t current_index() const override { return at_ - 1; }
-  std::string current_name() const override { return "cloud " + std::to_string(at_ - 1); }
-  SourceInfo info() const override {
-    SourceInfo info;
-    info.period_s = kPeriod;
-    return info;
-  }
-
- private:
-  std::vector<std::vector<Eigen::Vector3f>> clouds_;
-  std::size_t at_ = 0;
-};
+std::unique_ptr<ScanSource> timed_by_order(const std::vector<std::vector<Eigen::Vector3f>>& clouds) {
+  std::vector<Sweep> sweeps(clouds.size());
+  for (std::size_t i = 0; i < clouds.size(); ++i) sweeps[i].points = clouds[i];
+  return detail::with_order_times(std::make_unique<test::SweepsSource>(std::move(sweeps), kPeriod));
+}
 
 TEST(OrderTimes, OfASource) {
   const Measured turn = spinning(0.4, -kTurn);
   const std::vector<Eigen::Vector3f> few(turn.points.begin(), turn.points.begin() + 100);
-  const auto source = detail::with_order_times(std::make_unique<Clouds>(std::vector{turn.points, few, {}}));
+  const auto source = timed_by_order({turn.points, few, {}});
   EXPECT_TRUE(source->info().has_point_times);
   EXPECT_EQ(source->info().point_times, "order of the points, period 0.200000 s");
   EXPECT_EQ(source->next()->times_s, *order_times(turn.points, kPeriod));
@@ -158,9 +138,8 @@ TEST(OrderTimes, OfASource) {
 TEST(OrderTimes, ASourceInAnotherOrderIsAnError) {
   std::vector<Eigen::Vector3f> shuffled = spinning(0.4, -kTurn).points;
   std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(2));
-  const auto source =
-      detail::with_order_times(std::make_unique<Clouds>(std::vector<std::vector<Eigen::Vector3f>>{shuffled}));
-  test::expect_io_error([&] { source->next(); }, {"cloud 0", "do not lie in the order", "azimuth", "none"});
+  const auto source = timed_by_order({shuffled});
+  test::expect_io_error([&] { source->next(); }, {"sweep 0", "do not lie in the order", "azimuth", "none"});
 }
 
 }  // namespace

@@ -2,11 +2,10 @@
 #include "session/compensation_trial.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include <gtest/gtest.h>
 
-#include "rilo/io/io_error.hpp"
+#include "io/sweeps_source.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/session/session.hpp"
 #include "rilo/session/session_observer.hpp"
@@ -14,6 +13,8 @@
 
 namespace rilo {
 namespace {
+
+using test::SweepsSource;
 
 constexpr std::size_t kTrialSweeps = 30;
 constexpr double kPeriodS = 0.1;
@@ -24,11 +25,11 @@ struct Drive {
 };
 
 /// Column by column, as drivers write it, and without times.
-Drive drive(bool deskewed, double start_s) {
+Drive drive(bool deskewed) {
   DriveConfig config;
   config.sensor = SensorKind::kVlp16;
   config.sweeps = kTrialSweeps;
-  config.start_s = start_s;
+  config.start_s = 10.0;
   config.deskewed = deskewed;
   const DriveSimulator simulator(config);
   Drive drive;
@@ -42,52 +43,24 @@ Drive drive(bool deskewed, double start_s) {
 }
 
 const Drive& raw() {
-  static const Drive kDrive = drive(false, 10.0);
+  static const Drive kDrive = drive(false);
   return kDrive;
 }
 const Drive& compensated() {
-  static const Drive kDrive = drive(true, 10.0);
+  static const Drive kDrive = drive(true);
   return kDrive;
 }
 
-class Sweeps final : public ScanSource {
- public:
-  explicit Sweeps(std::vector<Sweep> sweeps, std::size_t fails_at = SIZE_MAX)
-      : sweeps_(std::move(sweeps)), fails_at_(fails_at) {}
-  std::optional<Sweep> next() override {
-    if (at_ == fails_at_) throw IoError({"sweep", "", "noise", "a sweep", ""});
-    if (at_ == sweeps_.size()) return std::nullopt;
-    return sweeps_[at_++];
-  }
-  std::size_t skip(std::size_t count) override {
-    at_ += count;
-    return count;
-  }
-  std::optional<std::size_t> size() const override { return sweeps_.size(); }
-  std::size_t current_index() const override { return at_ - 1; }
-  std::string current_name() const override { return "sweep " + std::to_string(at_ - 1); }
-  SourceInfo info() const override {
-    SourceInfo info;
-    info.period_s = kPeriodS;
-    return info;
-  }
-
- private:
-  std::vector<Sweep> sweeps_;
-  std::size_t fails_at_;
-  std::size_t at_ = 0;
-};
-
 CompensationTrial trial_of(const std::vector<Sweep>& sweeps, const OdometryConfig& config = {},
                            const std::function<bool()>& interrupted = {}) {
-  return try_compensation([&] { return std::make_unique<Sweeps>(sweeps); }, 0, config, interrupted);
+  return try_compensation([&] { return std::make_unique<SweepsSource>(sweeps); }, 0, config, interrupted);
 }
 
 SessionResult run_of(const std::vector<Sweep>& sweeps, PointTimes point_times, bool one_pass = false) {
   SessionOptions options;
   options.point_times = point_times;
   options.one_pass = one_pass;
-  return Session([&] { return std::make_unique<Sweeps>(sweeps); }, options).run();
+  return Session([&] { return std::make_unique<SweepsSource>(sweeps); }, options).run();
 }
 
 std::vector<Eigen::Matrix4d> poses_of(const SessionResult& run) {
@@ -182,7 +155,7 @@ TEST(CompensationTrial, EndsWithTheDataAnErrorOrAnInterrupt) {
   EXPECT_FALSE(trial_of({}).raw());
   EXPECT_FALSE(trial_of({raw().sweeps.begin(), raw().sweeps.begin() + 8}).raw());
   EXPECT_EQ(trial_of(raw().sweeps, {}, [] { return true; }).sweeps, 0U);
-  const auto failing = [] { return std::make_unique<Sweeps>(raw().sweeps, 20); };
+  const auto failing = [] { return std::make_unique<SweepsSource>(raw().sweeps, kPeriodS, 20); };
   EXPECT_EQ(try_compensation(failing, 0, {}, {}).sweeps, 17U);
   EXPECT_EQ(try_compensation(failing, 5, {}, {}).sweeps, 12U);
 }
@@ -215,7 +188,8 @@ TEST(CompensationTrial, ObserversAreTold) {
   for (const bool is_raw : {false, true}) {
     SessionOptions options;
     options.point_times = PointTimes::kAuto;
-    Session session([&] { return std::make_unique<Sweeps>(is_raw ? raw().sweeps : compensated().sweeps); }, options);
+    Session session([&] { return std::make_unique<SweepsSource>(is_raw ? raw().sweeps : compensated().sweeps); },
+                    options);
     Told told;
     session.add(told);
     EXPECT_EQ(session.run().results.size(), kTrialSweeps);

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include "io/byte_cursor.hpp"
 #include "io/raw_bytes.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
@@ -132,9 +133,19 @@ std::string list_of(const std::vector<Field>& fields) {
 }
 
 std::size_t need(const std::vector<Field>& fields, const std::vector<std::string>& names, std::string_view name,
-                 const std::filesystem::path& file) {
+                 const BytesOrigin& origin) {
   if (const auto place = find_name(names, {name})) return *place;
-  throw IoError({file, "", list_of(fields), "x, y and z among them", "Write the points with fields named x, y and z"});
+  throw IoError({origin.file, origin.part, list_of(fields), "x, y and z among them",
+                 "Write the points with fields named x, y and z"});
+}
+
+// "5", and "5.000000" as numpy.savetxt writes it.
+std::optional<std::int64_t> parse_whole(std::string_view text) {
+  if (const auto number = parse_integer(text)) return number;
+  constexpr double kLargest = 9e15;  // beyond it not every whole number is a double
+  const auto number = parse_double(text);
+  const bool whole = number && std::trunc(*number) == *number && std::abs(*number) <= kLargest;
+  return whole ? std::optional(static_cast<std::int64_t>(*number)) : std::nullopt;
 }
 
 }  // namespace
@@ -148,20 +159,20 @@ std::vector<std::size_t> FieldRoles::all() const {
 }
 
 FieldRoles find_roles(const std::vector<Field>& fields, const std::string& time_field,
-                      const std::filesystem::path& file) {
+                      const std::filesystem::path& file, const std::string& part) {
   std::vector<std::string> names;
   names.reserve(fields.size());
   for (const Field& field : fields) names.push_back(plain_name(field.name));
   FieldRoles roles;
-  roles.x = need(fields, names, "x", file);
-  roles.y = need(fields, names, "y", file);
-  roles.z = need(fields, names, "z", file);
+  roles.x = need(fields, names, "x", {file, part});
+  roles.y = need(fields, names, "y", {file, part});
+  roles.z = need(fields, names, "z", {file, part});
   roles.intensity = find_name(names, {"intensity", "i", "reflectivity", "remission", "reflectance"});
   roles.ring = find_name(names, {"ring", "channel", "line", "laser_id"});
   if (!time_field.empty()) {
     roles.time = find_name(names, {plain_name(time_field)});
     if (!roles.time) {
-      throw IoError({file, "", list_of(fields), "the time field " + in_quotes(time_field),
+      throw IoError({file, part, list_of(fields), "the time field " + in_quotes(time_field),
                      "Set time_field to one of these, or leave it out"});
     }
     return roles;
@@ -223,7 +234,7 @@ bool PackedRows::store_text(std::size_t field, std::string_view text) {
       if (number) std::memcpy(to, &*number, sizeof(T));
       return number.has_value();
     } else {
-      const auto number = parse_integer(text);
+      const auto number = parse_whole(text);
       if (!number || *number < std::numeric_limits<T>::min() || *number > std::numeric_limits<T>::max()) return false;
       const T value = static_cast<T>(*number);
       std::memcpy(to, &value, sizeof(T));

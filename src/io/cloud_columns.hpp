@@ -42,10 +42,11 @@ struct FieldRoles {
   std::vector<std::size_t> all() const;
 };
 
-/// Finds the roles by the usual names, whatever their case; CloudCompare's prefix "scalar_" is ignored.
+/// Finds the roles by the usual names, whatever their case; CloudCompare's prefix "scalar_" is ignored. `part` of the
+/// file ("message 17 of /points") is for messages.
 /// @throws IoError when x, y or z is missing, or the time field that was asked for.
 FieldRoles find_roles(const std::vector<Field>& fields, const std::string& time_field,
-                      const std::filesystem::path& file);
+                      const std::filesystem::path& file, const std::string& part = "");
 
 /// One column: value i is at data + i * stride.
 struct ColumnView {

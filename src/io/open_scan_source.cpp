@@ -28,19 +28,15 @@ void check_options(const SourceOptions& options) {
 std::string extension_of(const fs::path& file) { return detail::lower_case(file.extension().string()); }
 
 std::unique_ptr<detail::Recording> recording_in_folder(const fs::path& folder) {
-  if (detail::path_exists(folder / "metadata.yaml") || !detail::files_with(folder, {".db3", ".mcap"}).empty()) {
-    return detail::open_rosbag2(folder);
-  }
+  if (detail::is_rosbag2(folder)) return detail::open_rosbag2(folder);
   auto bags = detail::files_with(folder, {".bag"});
   if (!bags.empty()) return detail::open_in_turn(std::move(bags), detail::open_bag);
   return nullptr;
 }
 
 std::unique_ptr<detail::Recording> recording_in_file(const fs::path& file) {
-  const std::string extension = extension_of(file);
-  if (extension == ".mcap") return detail::open_mcap(file);
-  if (extension == ".db3") return detail::open_db3(file);
-  if (extension == ".bag") return detail::open_bag(file);
+  if (detail::is_rosbag2(file)) return detail::open_rosbag2(file);
+  if (extension_of(file) == ".bag") return detail::open_bag(file);
   return nullptr;
 }
 

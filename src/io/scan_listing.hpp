@@ -43,7 +43,8 @@ ScanListing list_kitti_raw(const std::filesystem::path& folder, const SourceOpti
 bool is_mulran(const std::filesystem::path& folder);
 ScanListing list_mulran(const std::filesystem::path& folder, const SourceOptions& options);
 
-/// Sweep files of a folder, all of one kind, in natural order.
+/// Sweep files of a folder, all of one kind, in natural order, or, where their names are decimal seconds, in that of
+/// time.
 struct SweepFiles {
   std::string format;  ///< bin, pcd, ply
   std::vector<std::filesystem::path> files;
@@ -60,7 +61,8 @@ std::string sweep_format(const std::filesystem::path& file);
 /// Numbers inside the names count as numbers: 2.bin comes before 10.bin.
 void sort_naturally(std::vector<std::filesystem::path>& files);
 
-/// What lies in `folder` with one of the extensions (lower case), in natural order; nothing where it cannot be listed.
+/// What lies in `folder` with one of the extensions (lower case), in natural order, hidden files left out; nothing
+/// where it cannot be listed.
 std::vector<std::filesystem::path> files_with(const std::filesystem::path& folder,
                                               std::initializer_list<std::string_view> extensions);
 

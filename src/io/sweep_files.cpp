@@ -10,6 +10,7 @@
 #include "io/stamp_list.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::detail {
 namespace fs = std::filesystem;
@@ -46,6 +47,30 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a < b;  // 1.bin and 01.bin: some order, always the same
 }
 
+// Without extensions; nuScenes has NAME.pcd.bin.
+std::string name_of(const fs::path& file) {
+  const fs::path stem = file.stem();
+  return (sweep_format(stem).empty() ? stem : stem.stem()).string();
+}
+
+// Decimal seconds by their value: natural order takes their decimals for whole numbers, and these are as long as
+// whoever wrote them found necessary.
+bool sort_by_seconds(std::vector<fs::path>& files) {
+  std::vector<std::pair<std::int64_t, fs::path>> stamped;
+  for (const fs::path& file : files) {
+    const std::string name = name_of(file);
+    const auto stamp = parse_stamp(name);
+    if (!stamp || name.find_first_not_of("0123456789.") != std::string::npos) return false;
+    stamped.emplace_back(*stamp, file);
+  }
+  std::sort(stamped.begin(), stamped.end());
+  std::transform(stamped.begin(), stamped.end(), files.begin(), [](const auto& one) { return one.second; });
+  return true;
+}
+
+// macOS puts ._NAME beside NAME where a disk cannot hold its attributes: never data.
+bool is_hidden(const fs::path& file) { return file.filename().string().front() == '.'; }
+
 struct FolderContent {
   std::array<std::vector<fs::path>, kFormats.size()> sweeps;
   std::size_t others = 0;
@@ -61,6 +86,7 @@ FolderContent content_of(const fs::path& folder) {
       content.folders.push_back(entry->path().filename().string());
       continue;
     }
+    if (is_hidden(entry->path())) continue;
     const auto kind = std::find(kFormats.begin(), kFormats.end(), sweep_format(entry->path()));
     if (kind == kFormats.end()) {
       ++content.others;
@@ -131,6 +157,7 @@ std::vector<fs::path> files_with(const fs::path& folder, std::initializer_list<s
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (is_hidden(entry->path())) continue;
     const std::string extension = lower_case(entry->path().extension().string());
     if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) files.push_back(entry->path());
   }
@@ -153,16 +180,14 @@ SweepFiles find_sweep_files(const fs::path& folder, bool look_below) {
     throw IoError(
         {folder, "", counts + " files", "sweeps of one kind", "Move the other files into a folder of their own"});
   }
-  sort_naturally(found.files);
+  if (!sort_by_seconds(found.files)) sort_naturally(found.files);
   return found;
 }
 
 std::vector<std::int64_t> stamps_from_names(const std::vector<fs::path>& files) {
   std::vector<std::int64_t> stamps;
   for (const fs::path& file : files) {
-    fs::path stem = file.stem();
-    if (!sweep_format(stem).empty()) stem = stem.stem();  // nuScenes: NAME.pcd.bin
-    const auto stamp = parse_long_stamp(stem.string());
+    const auto stamp = parse_long_stamp(name_of(file));
     if (!stamp || (!stamps.empty() && *stamp <= stamps.back())) return {};
     stamps.push_back(*stamp);
   }

@@ -94,6 +94,29 @@ TEST(FolderSourceTest, StampsFromTheNamesOrTheTimesFile) {
   EXPECT_EQ(open_scan_source(folder / "t")->next()->stamp_ns, 77'500'000'000);
 }
 
+TEST(FolderSourceTest, NamesOfDecimalSecondsInTheOrderOfTime) {
+  const TempDir folder;
+  for (const char* name : {"1700000000.4234936", "1700000000.523506", "1700000000.6235182", "1700000000.05"}) {
+    folder.write("s/" + std::string(name) + ".bin", bin_of(1));
+  }
+  const auto source = open_scan_source(folder / "s");
+  std::vector<std::int64_t> hundredths;
+  while (const auto sweep = source->next())
+    hundredths.push_back((sweep->stamp_ns - 1'700'000'000'000'000'000) / 10'000'000);
+  EXPECT_EQ(hundredths, (std::vector<std::int64_t>{5, 42, 52, 62}));
+  EXPECT_FALSE(source->info().stamps_assumed);
+}
+
+TEST(FolderSourceTest, HiddenFilesAreNoSweeps) {
+  const TempDir folder;
+  folder.write("1.bin", bin_of(1));
+  folder.write("._1.bin", "written by macOS");
+  folder.write("._notes.pcd", "written by macOS");
+  const auto source = open_scan_source(folder.path());
+  EXPECT_EQ(source->size(), 1U);
+  EXPECT_EQ(source->next()->points.size(), 2U);
+}
+
 std::vector<std::int64_t> stamps_of(const std::filesystem::path& path) {
   std::vector<std::int64_t> stamps;
   const auto source = open_scan_source(path);

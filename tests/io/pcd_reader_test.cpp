@@ -68,6 +68,19 @@ TEST(PcdTest, AsciiWithCountsAndNan) {
   EXPECT_EQ(cloud.times->integers, (std::vector<std::int64_t>{4'000'000'000, 7}));
 }
 
+// As numpy.savetxt writes them.
+TEST(PcdTest, AsciiWithDecimalsInWholeNumbers) {
+  const TempDir folder;
+  const std::string header = "FIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nWIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n";
+  EXPECT_EQ(read_pcd(folder.write("a.pcd", header + "1 2 3 5.000000\n")).rings.at(0), 5);
+  EXPECT_EQ(read_pcd(folder.write("b.pcd", header + "1 2 3 5.0e+00\n")).rings.at(0), 5);
+  for (const char* value : {"5.5", "nan", "1e30", "70000.0"}) {
+    SCOPED_TRACE(value);
+    const auto file = folder.write("c.pcd", header + "1 2 3 " + value + "\n");
+    expect_io_error([&] { read_pcd(file); }, {"line 8, column 7", "uint16"});
+  }
+}
+
 TEST(PcdTest, TimeFieldAsTold) {
   const TempDir folder;
   const auto file = folder.write("a.pcd",

@@ -19,7 +19,7 @@ LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const
   message.frame_id = std::move(header.frame_id);
   cursor.take<std::uint64_t>("timebase");  // the stamp again, or the sensor's own clock where it is not set
   cursor.take<std::uint32_t>("point_num");
-  cursor.take<std::uint8_t>("lidar_id");
+  message.lidar_id = cursor.take<std::uint8_t>("lidar_id");
   cursor.take_bytes(kReserved, "rsvd");
   const std::size_t count = take_count(cursor, kPointBytes, "points", "Livox CustomMsg");
   RawTimes times{"offset_time", ScalarType::kUint32, {}, {}};

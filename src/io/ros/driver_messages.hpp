@@ -16,6 +16,7 @@ namespace rilo::detail {
 struct LivoxMessage {
   std::int64_t stamp_ns = 0;  ///< of the header
   std::string frame_id;
+  std::uint8_t lidar_id = 0;  ///< tells apart several sensors of one driver
   /// m; reflectivities 0 … 255, the lines as rings, `offset_time` in ns since the stamp. Points without a return are
   /// at the origin.
   RawCloud cloud;

@@ -11,6 +11,11 @@ std::size_t MessageCursor::alignment_of(std::string_view bytes, const BytesOrigi
   const std::string_view kind = cursor.take_bytes(kEncapsulation, "encapsulation");
   if (kind[0] == 0 && kind[1] == 1) return 8;
   if (kind[0] == 0 && kind[1] == 7) return 4;
+  if (bytes.starts_with("\x28\xb5\x2f\xfd")) {
+    throw IoError(
+        {origin.file, byte_position(origin, 0), "a message in zstd", "0 1 (CDR, little-endian)",
+         "Restore the recording's metadata.yaml, which says that its messages are packed (ros2 bag reindex)"});
+  }
   throw IoError({origin.file, byte_position(origin, 0),
                  "an encapsulation of " + std::to_string(static_cast<unsigned char>(kind[0])) + " " +
                      std::to_string(static_cast<unsigned char>(kind[1])),

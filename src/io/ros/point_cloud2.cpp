@@ -127,7 +127,7 @@ RawCloud columns_of(const PointCloud2& message, const std::string& time_field, c
     fields.push_back({field.name, *type, field.count});
     described.push_back(&field);
   }
-  const detail::FieldRoles roles = detail::find_roles(fields, time_field, file);
+  const detail::FieldRoles roles = detail::find_roles(fields, time_field, file, part);
   if (points.count == 0)
     return detail::assemble_cloud(fields, roles, std::vector<detail::ColumnView>(fields.size()), 0);
   std::vector<detail::ColumnView> columns(fields.size());

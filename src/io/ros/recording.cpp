@@ -31,11 +31,7 @@ class RecordingsInTurn final : public Recording {
  public:
   RecordingsInTurn(std::vector<std::filesystem::path> files, OpenRecording open)
       : files_(std::move(files)), open_(std::move(open)) {
-    for (const auto& file : files_) {
-      current_ = open_(file);
-      add_topics(current_->topics());
-      keep_warnings();
-    }
+    open_all();
     format_ = current_->format();
     if (files_.size() > 1) format_ += ", " + std::to_string(files_.size()) + " files";
     if (files_.size() > 1) current_.reset();  // a single one stays open: it may have been unpacked for that
@@ -74,6 +70,26 @@ class RecordingsInTurn final : public Recording {
   std::vector<std::string> warnings() const override { return warnings_; }
 
  private:
+  // Leaves out files that cannot be opened, as those after a crash or a bad copy, unless it is all of them.
+  void open_all() {
+    std::vector<std::filesystem::path> opened;
+    std::optional<IoError> failure;
+    for (const auto& file : files_) {
+      try {
+        current_ = open_(file);
+      } catch (const IoError& error) {
+        warnings_.push_back(std::string("left out: ") + error.what());
+        failure = error;
+        continue;
+      }
+      opened.push_back(file);
+      add_topics(current_->topics());
+      keep_warnings();
+    }
+    if (opened.empty()) throw *failure;
+    files_ = std::move(opened);
+  }
+
   void add_topics(const std::vector<RecordedTopic>& topics) {
     for (const RecordedTopic& topic : topics) {
       const auto same = [&](const RecordedTopic& known) { return known.has_same_messages(topic); };

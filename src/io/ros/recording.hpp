@@ -75,8 +75,11 @@ using OpenRecording = std::function<std::unique_ptr<Recording>(const std::filesy
 std::unique_ptr<Recording> open_mcap(const std::filesystem::path& file);
 /// The SQLite3 file of a rosbag2.
 std::unique_ptr<Recording> open_db3(const std::filesystem::path& file);
-/// A rosbag2 folder: metadata.yaml and its files, compressed or not; without metadata.yaml its .db3 or .mcap files.
-std::unique_ptr<Recording> open_rosbag2(const std::filesystem::path& folder);
+/// A rosbag2: its folder with metadata.yaml and its files, compressed or not; without metadata.yaml its .db3 or .mcap
+/// files; or one of these.
+std::unique_ptr<Recording> open_rosbag2(const std::filesystem::path& path);
+/// By the names alone.
+bool is_rosbag2(const std::filesystem::path& path);
 /// A ROS 1 bag. @throws IoError where this build has no librosbag-storage.
 std::unique_ptr<Recording> open_bag(const std::filesystem::path& file);
 

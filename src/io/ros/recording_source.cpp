@@ -9,6 +9,7 @@
 #include "io/scan_listing.hpp"
 #include "io/stamp_difference.hpp"
 #include "io/sweep_timing.hpp"
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -19,6 +20,7 @@ struct CloudMessage {
   std::optional<std::int64_t> stamp_ns;
   std::string frame_id;
   RawCloud cloud;
+  std::string sensor;  // what tells the sensors of one topic apart
 };
 
 // Stamp and frame are set even when it throws because of the points.
@@ -26,7 +28,8 @@ void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, con
                  const std::string& part, CloudMessage& into) {
   if (scan_form(topic) == ScanForm::kLivoxCustom) {
     LivoxMessage livox = parse_livox(message.bytes, encoding_of(topic), message.file, part);
-    into = {livox.stamp_ns, std::move(livox.frame_id), std::move(livox.cloud)};
+    const std::string sensor = "LiDAR " + std::to_string(livox.lidar_id) + " in frame " + in_quotes(livox.frame_id);
+    into = {livox.stamp_ns, std::move(livox.frame_id), std::move(livox.cloud), sensor};
     return;
   }
   PointCloud2 parsed;
@@ -34,6 +37,7 @@ void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, con
   const PointCloud2& cloud = message.cloud == nullptr ? parsed : *message.cloud;
   into.stamp_ns = cloud.stamp_ns;
   into.frame_id = cloud.frame_id;
+  into.sensor = "frame " + in_quotes(cloud.frame_id);
   into.cloud = columns_of(cloud, time_field, message.file, part);
 }
 
@@ -114,8 +118,9 @@ class RecordingSource final : public ScanSource {
         // Reported when it is reached.
       }
       if (!cloud.stamp_ns) continue;
-      stamps.push_back(*cloud.stamp_ns);
-      info_.frame_id = cloud.frame_id;
+      if (stamps.empty()) info_.frame_id = cloud.frame_id;
+      if (sensor_.empty()) sensor_ = cloud.sensor;
+      if (cloud.sensor == sensor_) stamps.push_back(*cloud.stamp_ns);
     }
     recording_->select(topic_);
     const auto period_s = mean_period_s(stamps);
@@ -132,7 +137,7 @@ class RecordingSource final : public ScanSource {
     const std::string part = "message " + std::to_string(current_ + 1) + " of " + topic_.name;
     CloudMessage cloud;
     parse_cloud(message, topic_, options_.time_field, part, cloud);
-    info_.frame_id = std::move(cloud.frame_id);
+    check_sensor(cloud, part);
     RawCloud& columns = cloud.cloud;
     Sweep sweep;
     sweep.stamp_ns = *cloud.stamp_ns;
@@ -142,6 +147,14 @@ class RecordingSource final : public ScanSource {
     timing_->apply(columns.times, current_name(), 0, sweep);
     note_lateness(stamp_difference(message.received_ns, *cloud.stamp_ns));
     return sweep;
+  }
+
+  // The sweeps of one sensor do not fit the map of another.
+  void check_sensor(const CloudMessage& cloud, const std::string& part) {
+    if (sensor_.empty()) sensor_ = cloud.sensor;
+    if (cloud.sensor == sensor_) return;
+    throw IoError({file_, part, "points of " + cloud.sensor + " after some of " + sensor_, "one sensor in a topic",
+                   "Record each sensor on a topic of its own; where bad sweeps are skipped, the first one's are used"});
   }
 
   // A sweep is late when it reached the recorder more than a period later than the promptest one.
@@ -159,6 +172,7 @@ class RecordingSource final : public ScanSource {
   SourceInfo info_;
   std::optional<SweepTiming> timing_;
   std::filesystem::path file_;
+  std::string sensor_;       // that of the first message
   std::size_t cursor_ = 0;   // of the next message
   std::size_t current_ = 0;  // of the last one
   std::optional<std::int64_t> usual_delay_ns_;
@@ -194,6 +208,11 @@ std::vector<TopicInfo> describe_topics(Recording& recording) {
 
 std::unique_ptr<ScanSource> open_recording(const std::filesystem::path& path, std::unique_ptr<Recording> recording,
                                            const SourceOptions& options) {
+  const std::vector<std::string> warnings = recording->warnings();
+  if (recording->topics().empty() && !warnings.empty()) {
+    throw IoError({path, "", "no topics; " + warnings.front(), "a recording with a topic of scans",
+                   "Copy the recording again; where the recorder was killed early, nothing was recorded"});
+  }
   const RecordedTopic topic = choose_topic(path, recording->topics(), options.topic);
   if (is_packets(scan_form(topic))) return open_packet_topic(path, std::move(recording), topic, options);
   return std::make_unique<RecordingSource>(path, std::move(recording), topic, options);

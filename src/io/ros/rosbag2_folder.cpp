@@ -85,10 +85,15 @@ bool is_storage(const fs::path& file) {
          has_suffix(file, ".mcap.zstd");
 }
 
-// Where the recorder was killed there is no metadata.yaml: the files are taken as they are.
-std::vector<fs::path> files_without_metadata(const fs::path& folder) {
+std::vector<fs::path> storage_in(const fs::path& folder) {
   std::vector<fs::path> files = files_with(folder, {".db3", ".mcap", ".zstd"});
   std::erase_if(files, [](const fs::path& file) { return !is_storage(file); });
+  return files;
+}
+
+// Where the recorder was killed there is no metadata.yaml: the files are taken as they are.
+std::vector<fs::path> files_without_metadata(const fs::path& folder) {
+  std::vector<fs::path> files = storage_in(folder);
   if (files.empty()) reject(folder, "", "no .db3 and no .mcap", "the files of a rosbag2");
   return files;
 }
@@ -152,9 +157,7 @@ std::unique_ptr<Recording> open_maybe_packed(const fs::path& file) {
   return std::make_unique<PackedFile>(std::move(folder), unpacked, file);
 }
 
-}  // namespace
-
-std::unique_ptr<Recording> open_rosbag2(const fs::path& folder) {
+std::unique_ptr<Recording> open_rosbag2_folder(const fs::path& folder) {
   const fs::path file = folder / "metadata.yaml";
   std::error_code ignored;
   Metadata metadata;
@@ -166,6 +169,20 @@ std::unique_ptr<Recording> open_rosbag2(const fs::path& folder) {
   auto recording = open_in_turn(std::move(metadata.files), open_maybe_packed);
   if (metadata.messages_compressed) return std::make_unique<PackedMessages>(std::move(recording));
   return recording;
+}
+
+}  // namespace
+
+bool is_rosbag2(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return is_storage(path);
+  return path_exists(path / "metadata.yaml") || !storage_in(path).empty();
+}
+
+std::unique_ptr<Recording> open_rosbag2(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return open_maybe_packed(path);
+  return open_rosbag2_folder(path);
 }
 
 }  // namespace rilo::detail

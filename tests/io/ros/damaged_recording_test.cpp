@@ -75,6 +75,40 @@ TEST(DamagedRecordingTest, FilesThatAreNone) {
   expect_io_error([&] { open_scan_source(folder / "m"); }, {"gone.db3.zstd", "zstd data"});
 }
 
+// A recorder that was killed leaves an empty last file; the others are whole.
+TEST(DamagedRecordingTest, AFileOfASplitRecordingIsLeftOut) {
+  const TempDir folder;
+  const auto sweeps = numbered_sweeps(4);
+  const auto messages = recorded(sweeps, MessageEncoding::kCdr);
+  folder.write("m/m_0.mcap", test::mcap_bytes(kTopics, {messages[0], messages[1]}, {"zstd", 2, true}));
+  folder.write("m/m_1.mcap", "");
+  folder.write("m/m_2.mcap", test::mcap_bytes(kTopics, {messages[2], messages[3]}, {"zstd", 2, true}));
+  const auto source = open_scan_source(folder / "m");
+  EXPECT_EQ(source->size(), 4U);
+  for (const Sweep& sweep : sweeps) expect_same_sweep(source->next().value(), sweep);
+  EXPECT_FALSE(source->next());
+  EXPECT_TRUE(has_warning(source->info(), "left out: " + (folder / "m/m_1.mcap").string()));
+  folder.write("none/m_0.mcap", "");
+  folder.write("none/m_1.mcap", "");
+  expect_io_error([&] { open_scan_source(folder / "none"); }, {"m_1.mcap", "0 bytes"});
+}
+
+TEST(DamagedRecordingTest, AnMcapCutOffBeforeItsFirstChunkSaysSo) {
+  const TempDir folder;
+  const std::string whole = test::mcap_bytes(kTopics, recorded(numbered_sweeps(2), MessageEncoding::kCdr), {});
+  expect_io_error([&] { open_scan_source(folder.write("cut.mcap", whole.substr(0, 40))); }, {"no topics", "cut off"});
+}
+
+// Without metadata.yaml nothing says that the messages are packed.
+TEST(DamagedRecordingTest, PackedMessagesWithoutMetadataAreNamed) {
+  const TempDir folder;
+  auto messages = recorded(numbered_sweeps(2), MessageEncoding::kCdr);
+  for (auto& message : messages) message.bytes = test::zstd_of(message.bytes);
+  test::write_db3(folder.write("d/d_0.db3", ""), kTopics, messages);
+  const auto source = open_scan_source(folder / "d");
+  expect_io_error([&] { source->next(); }, {"message 1 of /points", "zstd", "metadata.yaml"});
+}
+
 // A view could compute for ever.
 TEST(DamagedRecordingTest, ADatabaseWithViewsIsRefused) {
   const TempDir folder;

@@ -89,6 +89,21 @@ TEST(LivoxTest, TheUnitIsNotInferred) {
   EXPECT_EQ(sweeps[0].times_s[1], 1e-5F);
 }
 
+// livox_ros_driver publishes all its sensors under one name, unless multi_topic is set.
+TEST(LivoxTest, ASecondSensorInTheTopicIsNamed) {
+  const TempDir folder;
+  auto all = messages(false);
+  const std::size_t id = all[2].bytes.find("rsv") - 1;
+  all[2].bytes[id] = 4;
+  const auto file = folder.write("l.mcap", test::mcap_bytes({{"/livox/lidar", "livox_ros_driver2/msg/CustomMsg"},
+                                                             {"/livox/imu", "sensor_msgs/msg/Imu"}},
+                                                            all, {}));
+  const auto source = open_scan_source(file);
+  EXPECT_TRUE(source->next());
+  expect_io_error([&] { source->next(); }, {"message 2 of /livox/lidar", "LiDAR 4", "LiDAR 3", "one sensor"});
+  EXPECT_TRUE(source->next());
+}
+
 TEST(LivoxTest, CutOffAtEveryByte) {
   for (const bool ros1 : {true, false}) {
     const std::string whole = livox_message(ros1, 0);

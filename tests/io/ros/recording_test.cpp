@@ -215,6 +215,46 @@ TEST(RecordingTest, SplitRecordingsContinue) {
 #endif
 }
 
+// A recorder that was killed, or a file on its own.
+TEST(RecordingTest, PackedFilesWithoutMetadata) {
+  const auto sweeps = numbered_sweeps(3);
+  const TempDir folder;
+  for (const std::string storage : {"sqlite3", "mcap"}) {
+    const fs::path path = write_rosbag2(folder, sweeps, storage, "FILE");
+    fs::remove(path / "metadata.yaml");
+    for (const fs::path& data : {path, path / (storage == "mcap" ? "b_0.mcap.zstd" : "b_0.db3.zstd")}) {
+      SCOPED_TRACE(data.string());
+      const auto source = open_scan_source(data);
+      for (const Sweep& sweep : sweeps) expect_same_sweep(source->next().value(), sweep);
+      EXPECT_FALSE(source->next());
+    }
+  }
+}
+
+// Drivers of several sensors may publish them all under one name.
+TEST(RecordingTest, ASecondSensorInTheTopicIsNamed) {
+  const auto sweeps = numbered_sweeps(4);
+  auto messages = recorded(sweeps, MessageEncoding::kCdr);
+  const TempDir folder;
+  const fs::path one = folder.write("one.mcap", test::mcap_bytes(kRos2Topics, messages, {}));
+  for (const std::size_t i : {1U, 3U}) {
+    test::CloudMessage other = test::message_of(sweeps[i]);
+    other.frame_id = "lidar_rear";
+    messages[i].bytes = test::message_bytes(other, MessageEncoding::kCdr);
+  }
+  const fs::path file = folder.write("two.mcap", test::mcap_bytes(kRos2Topics, messages, {}));
+  const auto source = open_scan_source(file);
+  EXPECT_DOUBLE_EQ(source->info().period_s, 2 * open_scan_source(one)->info().period_s);  // of the first sensor
+  expect_same_sweep(source->next().value(), sweeps[0]);
+  expect_io_error([&] { source->next(); }, {"message 2 of /points", "lidar_rear", "one sensor in a topic"});
+  SourceOptions options;
+  options.on_bad_sweep = OnBadSweep::kSkip;
+  const auto first = open_scan_source(file, options);
+  expect_same_sweep(first->next().value(), sweeps[0]);
+  expect_same_sweep(first->next().value(), sweeps[2]);
+  EXPECT_FALSE(first->next());
+}
+
 std::size_t read_all(const fs::path& file) {
   SourceOptions options;
   options.read_ahead = 0;

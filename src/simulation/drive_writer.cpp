@@ -1,7 +1,10 @@
 #include "simulation/drive_writer.hpp"
 
 #include <cerrno>
+#include <fstream>
 #include <iomanip>
+#include <iterator>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -36,30 +39,60 @@ void create_folder(const fs::path& path) {
 // Of the command, where the folder itself cannot be locked: whoever holds it goes on holding it.
 constexpr std::string_view kLock = ".rilo.lock";
 
-// Only what an earlier drive left is taken away, never something else that the folder holds.
-void prepare_folder(const fs::path& folder) {
-  static const std::set<std::string> kOurs = {"velodyne",      "times_pt",        "times.txt",
-                                              "calib.txt",     "poses.txt",       "poses_mid.txt",
-                                              "poses_end.txt", "poses_start.txt", "meta.json"};
-  create_folder(folder);
+// There from before anything of an earlier drive goes until meta.json is in place: what a killed simulation left is
+// recognised by it.
+constexpr const char* kUnfinished = "meta.partial.json";
+constexpr const char* kMeta = "meta.json";
+constexpr std::string_view kGenerator = "\"generator\": \"rilo simulate\"";
+
+bool says_it_is_ours(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  return text.find(kGenerator) != std::string::npos;
+}
+
+// All but the lock. @throws unless these are nothing but the files of an earlier drive: a KITTI sequence has the same
+// names.
+std::vector<fs::path> files_of_earlier_drive(const fs::path& folder) {
+  static const std::set<std::string> kOurs = {"velodyne",  "times_pt",      "times.txt",     "calib.txt",
+                                              "poses.txt", "poses_mid.txt", "poses_end.txt", "poses_start.txt",
+                                              kMeta,       kUnfinished};
   std::error_code error;
   std::vector<fs::path> found;
+  bool holds_a_drive = false;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     const fs::path& path = it->path();
     if (path.filename() == kLock) continue;
     const std::string name = path.filename().string();
-    if (kOurs.count(name_of_unfinished(name).value_or(name)) == 0) {
+    const std::optional<std::string> unfinished = name_of_unfinished(name);
+    if (kOurs.count(unfinished.value_or(name)) == 0) {
       throw std::runtime_error(path.string() + ": is not part of a simulated drive; choose an empty folder");
     }
     found.push_back(path);
+    holds_a_drive = holds_a_drive || !unfinished;
   }
   if (error) fail(folder, "cannot be listed", error.value());
-  // meta.json first: from here on the old drive is recognisably incomplete.
-  fs::remove(folder / "meta.json", error);
-  if (error) fail(folder / "meta.json", "cannot be removed", error.value());
-  for (const fs::path& path : found) {
-    fs::remove_all(path, error);
-    if (error) fail(path, "cannot be removed", error.value());
+  if (holds_a_drive && !says_it_is_ours(folder / kMeta) && !says_it_is_ours(folder / kUnfinished)) {
+    throw std::runtime_error(
+        folder.string() + ": holds data, and no meta.json says that rilo simulate made them; choose an empty folder");
+  }
+  return found;
+}
+
+void take_away(const fs::path& path) {
+  std::error_code error;
+  fs::remove_all(path, error);
+  if (error) fail(path, "cannot be removed", error.value());
+}
+
+// Only what an earlier drive left is taken away, never something else that the folder holds.
+void prepare_folder(const fs::path& folder) {
+  create_folder(folder);
+  const std::vector<fs::path> earlier = files_of_earlier_drive(folder);
+  write_atomically(folder / kUnfinished, "{" + std::string(kGenerator) + "}\n");
+  take_away(folder / kMeta);  // first: from here on the old drive is recognisably incomplete
+  for (const fs::path& path : earlier) {
+    if (path.filename() != kUnfinished) take_away(path);
   }
 }
 
@@ -108,7 +141,7 @@ std::string description(const DriveSimulator& drive, const DriveSummary& summary
   std::ostringstream text;
   text << std::setprecision(10) << std::boolalpha;
   text << "{\n"
-       << "  \"generator\": \"rilo simulate\",\n"
+       << "  " << kGenerator << ",\n"
        << "  \"seed\": " << c.seed << ",\n"
        << "  \"scene\": \"town\",\n"
        << "  \"sensor\": \"" << to_string(c.sensor) << "\",\n"
@@ -166,7 +199,8 @@ DriveSummary write_drive(const DriveSimulator& drive, const fs::path& folder, co
     go_on = !progress || progress(summary.sweeps, drive.size());
   }
   write_texts(drive, folder, poses);
-  write_atomically(folder / "meta.json", description(drive, summary));
+  write_atomically(folder / kMeta, description(drive, summary));
+  take_away(folder / kUnfinished);
   return summary;
 }
 

@@ -138,13 +138,31 @@ TEST_F(DriveWriterTest, LeavesOtherPeoplesFilesAlone) {
   EXPECT_EQ(text("times.txt"), "0\n");
 }
 
+TEST_F(DriveWriterTest, LeavesADriveOfAnotherSensorAlone) {
+  fs::create_directories(folder_ / "velodyne");
+  for (const char* name : {"velodyne/000000.bin", "times.txt", "calib.txt"}) std::ofstream(folder_ / name) << "real";
+  for (const char* meta : {"", "{\"generator\": \"another\", \"rate_hz\": 10}"}) {
+    if (*meta != 0) std::ofstream(folder_ / "meta.json") << meta;
+    try {
+      write_drive(DriveSimulator(config(1, false)), folder_);
+      FAIL() << "wrote over a foreign drive";
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("choose an empty folder"));
+    }
+    for (const char* name : {"velodyne/000000.bin", "times.txt", "calib.txt"}) EXPECT_EQ(text(name), "real");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), *meta != 0 ? 4 : 3);
+  }
+}
+
 TEST_F(DriveWriterTest, TakesAwayWhatAKilledOneLeftButNotALock) {
   fs::create_directories(folder_ / "velodyne");
+  std::ofstream(folder_ / "meta.partial.json") << R"({"generator": "rilo simulate"})";
   std::ofstream(folder_ / "velodyne" / ".000007.bin.6732-8.tmp") << "half";
   std::ofstream(folder_ / ".poses.txt.6732-27.tmp") << "half";
   std::ofstream(folder_ / ".rilo.lock") << "held";
   write_drive(DriveSimulator(config(1, true)), folder_);
   EXPECT_FALSE(fs::exists(folder_ / ".poses.txt.6732-27.tmp"));
+  EXPECT_FALSE(fs::exists(folder_ / "meta.partial.json"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "velodyne"), fs::directory_iterator()), 1);
   EXPECT_EQ(text(".rilo.lock"), "held");
 }

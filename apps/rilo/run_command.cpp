@@ -17,6 +17,7 @@
 #include "io/text.hpp"
 #include "results/metrics_json.hpp"
 #include "results/run_metrics.hpp"
+#include "results/output_check.hpp"
 #include "results/run_observers.hpp"
 #include "results/run_outputs.hpp"
 #include "results/run_record.hpp"
@@ -155,6 +156,7 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   prepare_outputs(flags);
   if (flags.out.empty() && !flags.quiet) std::cerr << "rilo: note: results are not kept; --out FOLDER keeps them\n";
   const FolderLock lock(flags.out);
+  check_outputs(flags, flags, flags.config_file);
   const InterruptGuard guard;
   const auto view = open_view(flags, session->source(), run.config);
   PartialPoses partial(flags.out);

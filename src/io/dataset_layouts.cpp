@@ -72,4 +72,20 @@ ScanListing list_mulran(const fs::path& folder, const SourceOptions& options) {
   return listing;
 }
 
+ScanListing list_folder(const fs::path& folder, const SourceOptions& options) {
+  std::error_code ignored;
+  if (fs::is_directory(folder / "velodyne", ignored)) return list_sequence(folder, options);
+  if (is_kitti_raw(folder)) return list_kitti_raw(folder, options);
+  if (is_mulran(folder)) return list_mulran(folder, options);
+  return list_plain_folder(folder, options);
+}
+
+fs::path sweep_folder(const fs::path& data) {
+  std::error_code ignored;
+  for (const char* name : {"velodyne", "velodyne_points/data", "sensor_data/Ouster"}) {
+    if (fs::is_directory(data / name, ignored)) return data / name;
+  }
+  return data;
+}
+
 }  // namespace rilo::detail

@@ -58,14 +58,9 @@ std::optional<GroundTruth> find_truth(const fs::path& data, PoseInstant instant)
 }
 
 void compare_counts(const fs::path& data, GroundTruth& truth) {
-  std::error_code ignored;
-  fs::path folder = data;
-  for (const char* name : {"velodyne", "velodyne_points/data", "sensor_data/Ouster"}) {
-    if (fs::is_directory(data / name, ignored)) folder = data / name;
-  }
   std::size_t sweeps = 0;
   try {
-    sweeps = detail::find_sweep_files(folder).files.size();
+    sweeps = detail::find_sweep_files(detail::sweep_folder(data)).files.size();
   } catch (const IoError&) {
     return;  // a recording: its sweeps are counted when they come
   }

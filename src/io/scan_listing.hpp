@@ -43,6 +43,12 @@ ScanListing list_kitti_raw(const std::filesystem::path& folder, const SourceOpti
 bool is_mulran(const std::filesystem::path& folder);
 ScanListing list_mulran(const std::filesystem::path& folder, const SourceOptions& options);
 
+/// A data folder of any of these kinds. @throws IoError when it is none: a recording, nothing.
+ScanListing list_folder(const std::filesystem::path& folder, const SourceOptions& options);
+
+/// Where in a data folder of one of these kinds the sweeps lie; the folder itself for others.
+std::filesystem::path sweep_folder(const std::filesystem::path& data);
+
 /// Sweep files of a folder, all of one kind, in natural order, or, where their names are decimal seconds, in that of
 /// time.
 struct SweepFiles {

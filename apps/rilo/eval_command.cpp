@@ -42,6 +42,7 @@ struct Sequence {
   std::string truth;
   std::string estimate;
   std::string protocol;
+  std::vector<std::string> warnings;
   Evaluation evaluation;
 };
 
@@ -49,7 +50,10 @@ Sequence evaluate_pair(const EvalFlags& flags, const std::string& truth_path, co
   const PoseFile truth = read_truth(truth_path, flags.instant);
   const PoseFile estimate = read_poses(estimate_path);
   const PairedPoses paired = pair_poses(truth, estimate, flags.pairing);
-  return {valid_utf8(truth.file.string()), valid_utf8(estimate_path), paired.protocol,
+  for (const std::string& warning : paired.warnings) {
+    std::cerr << "rilo: warning: " << estimate_path << ": " << warning << '\n';
+  }
+  return {valid_utf8(truth.file.string()), valid_utf8(estimate_path), paired.protocol, paired.warnings,
           evaluate(paired.poses.truth, paired.poses.estimate)};
 }
 
@@ -58,6 +62,7 @@ nlohmann::json sequence_json(const Sequence& sequence) {
   json["truth"] = sequence.truth;
   json["estimate"] = sequence.estimate;
   json["protocol"] = sequence.protocol;
+  json["warnings"] = sequence.warnings;
   return json;
 }
 
@@ -108,7 +113,7 @@ void add_flags(CLI::App& command, EvalFlags& flags) {
   add_choice(
       command, "--associate", [&flags](const std::string& text) { flags.pairing.pairing = parse_pairing(text); },
       {"auto", "index", "stamp"},
-      "pair poses by index or by stamp. Default: auto, by stamp when both files have stamps");
+      "pair poses by index or by stamp. Default: auto, by stamp when both have stamps, a data folder too");
   add_number(command, "--max-gap-s", flags.pairing.max_gap_s, 0, 1e6,
              "largest distance of two stamps that belong together");
   add_count(command, "--start", flags.pairing.first, kAnyCount,

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -58,19 +59,28 @@ QualityRun measure(const QualityFlags& flags) {
   const auto source = open_scan_source(flags.data, flags.source.options);
   source->skip(flags.start);
   Progress progress("rilo", sweeps_to_do(*source, flags.start, flags.count), flags.quiet);
-  std::size_t read = 0;
-  while ((flags.count == 0 || read < flags.count) && !poses.end(read)) {
-    const std::optional<Sweep> sweep = source->next();
-    if (!sweep) break;
-    check_point_times(flags.source, *sweep, source->current_name());
-    if (const auto pose = poses.of(*sweep, read, source->info().period_s)) meter.add(points_at(*sweep, *pose), pose->T);
-    progress.update(++read);
+  const auto read = [&](std::size_t index) -> std::optional<Sweep> {
+    if ((flags.count > 0 && index >= flags.count) || poses.end(index)) return std::nullopt;
+    std::optional<Sweep> sweep = source->next();
+    if (sweep) check_point_times(flags.source, *sweep, source->current_name());
+    return sweep;
+  };
+  SweepWithNeighbours at;
+  for (std::optional<Sweep> sweep = read(0); sweep;) {
+    std::optional<Sweep> after = read(at.index + 1);
+    at.middle_ns = middle_ns(*sweep);
+    at.after_ns = after ? std::optional(middle_ns(*after)) : std::nullopt;
+    if (const auto pose = poses.of(at, source->info().period_s)) meter.add(points_at(*sweep, *pose), pose->T);
+    at.before_ns = at.middle_ns;
+    sweep = std::move(after);
+    progress.update(++at.index);
   }
   progress.finish();
   const MapQuality quality = meter.result();
-  return {quality,
-          fmt::format("{}; {} poses, {} of {} sweeps have one", poses.protocol(), poses.size(), quality.sweeps, read),
-          source->info()};
+  return {
+      quality,
+      fmt::format("{}; {} poses, {} of {} sweeps have one", poses.protocol(), poses.size(), quality.sweeps, at.index),
+      source->info()};
 }
 
 void check_found(const QualityFlags& flags, const QualityRun& run) {

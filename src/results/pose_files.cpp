@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "io/file_bytes.hpp"
+#include "io/stamp_difference.hpp"
 #include "io/text.hpp"
+#include "results/sweep_times.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"
 #include "rilo/session/session.hpp"
@@ -32,22 +36,96 @@ std::size_t words_of_first_line(const std::filesystem::path& file) {
 }
 
 PoseFile without_stamps(const std::filesystem::path& file, const std::vector<SE3>& poses) {
-  PoseFile result{file, {}, false};
+  PoseFile result{file, {}, false, {}, {}};
   for (const SE3& T : poses) result.trajectory.push_back({0, T});
   return result;
 }
 
-MatchedPoses by_index(Trajectory truth, const Trajectory& estimate, std::size_t first) {
+PoseFile truth_of_data(const std::filesystem::path& data, GroundTruth truth, PoseInstant instant) {
+  PoseFile result = without_stamps(truth.file, truth.T_world_lidar);
+  result.warnings = std::move(truth.warnings);
+  SweepTimes times = sweep_times(data, instant);
+  result.stamped = !times.stamps_ns.empty() && times.stamps_ns.size() >= result.trajectory.size();
+  if (!result.stamped) return result;
+  for (std::size_t i = 0; i < result.trajectory.size(); ++i) result.trajectory[i].stamp_ns = times.stamps_ns[i];
+  result.offsets_ns = std::move(times.offsets_ns);
+  return result;
+}
+
+Trajectory later_by(Trajectory trajectory, std::int64_t offset_ns) {
+  for (StampedPose& pose : trajectory) pose.stamp_ns = detail::stamp_difference(pose.stamp_ns, -offset_ns);
+  return trajectory;
+}
+
+MatchedPoses by_stamp(const PoseFile& truth, const Trajectory& estimate, double max_gap_s) {
+  const auto gap_ns = static_cast<std::int64_t>(std::llround(max_gap_s * 1e9));
+  if (truth.offsets_ns.empty()) return match_by_stamp(truth.trajectory, estimate, gap_ns);
+  std::optional<MatchedPoses> best;
+  std::string why_not;
+  for (const std::int64_t offset_ns : truth.offsets_ns) {
+    try {
+      MatchedPoses matched = match_by_stamp(later_by(truth.trajectory, offset_ns), estimate, gap_ns);
+      if (!best || matched.truth.size() > best->truth.size()) best = std::move(matched);
+    } catch (const std::invalid_argument& error) {
+      if (why_not.empty()) why_not = error.what();
+    }
+  }
+  if (!best) throw std::invalid_argument(why_not);
+  return *best;
+}
+
+// Of both, as many as there are of the shorter one.
+MatchedPoses by_index(Trajectory truth, Trajectory estimate, std::size_t first) {
   truth.erase(truth.begin(), truth.begin() + static_cast<std::ptrdiff_t>(std::min(first, truth.size())));
-  truth.resize(std::min(truth.size(), estimate.size()));
+  const std::size_t both = std::min(truth.size(), estimate.size());
+  truth.resize(both);
+  estimate.resize(both);
   return match_by_index(truth, estimate);
+}
+
+PairedPoses paired_by_stamp(const PoseFile& truth, const PoseFile& estimate, const PairingOptions& options) {
+  try {
+    return {by_stamp(truth, estimate.trajectory, options.max_gap_s),
+            fmt::format("paired by stamp, at most {} s apart", options.max_gap_s),
+            {}};
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}, or take --associate index", error.what()));
+  }
+}
+
+PairedPoses paired_by_index(const PoseFile& truth, const PoseFile& estimate, const PairingOptions& options) {
+  PairedPoses paired{by_index(truth.trajectory, estimate.trajectory, options.first),
+                     fmt::format("paired by index from true pose {} on", options.first),
+                     {}};
+  const std::size_t in_truth = truth.trajectory.size() - std::min(options.first, truth.trajectory.size());
+  const std::size_t in_estimate = estimate.trajectory.size();
+  if (in_truth != in_estimate) {
+    paired.warnings.push_back(
+        fmt::format("{} true and {} estimated poses: the first {} are paired one after the other, which is wrong when "
+                    "the estimate begins later (--start tells where) or lacks a sweep (stamps of both tell which)",
+                    in_truth, in_estimate, paired.poses.truth.size()));
+  }
+  return paired;
+}
+
+PairedPoses paired_automatically(const PoseFile& truth, const PoseFile& estimate, const PairingOptions& options) {
+  const std::size_t all = estimate.trajectory.size();
+  const bool index_fits = !truth.offsets_ns.empty() && truth.trajectory.size() == all;
+  if (!index_fits) return paired_by_stamp(truth, estimate, options);
+  try {
+    PairedPoses paired = paired_by_stamp(truth, estimate, options);
+    if (paired.poses.truth.size() == all) return paired;
+  } catch (const std::invalid_argument&) {
+    // Of another clock.
+  }
+  return paired_by_index(truth, estimate, options);
 }
 
 }  // namespace
 
 PoseFile read_poses(const std::filesystem::path& file) {
   const std::size_t count = std::filesystem::is_regular_file(file) ? words_of_first_line(file) : kKittiNumbers;
-  if (count == kTumNumbers) return {file, read_tum(file), true};
+  if (count == kTumNumbers) return {file, read_tum(file), true, {}, {}};
   if (count == kKittiNumbers) return without_stamps(file, read_kitti_poses(file));
   if (count == 0) throw IoError({file, "", "no pose", "a pose file, KITTI or TUM form", "Check the path"});
   throw IoError({file, "first line", fmt::format("{} words", count), "12 numbers (KITTI form) or 8 (TUM form)",
@@ -56,8 +134,8 @@ PoseFile read_poses(const std::filesystem::path& file) {
 
 PoseFile read_truth(const std::filesystem::path& path, PoseInstant instant) {
   if (!std::filesystem::is_directory(path)) return read_poses(path);
-  const auto truth = read_ground_truth(path, instant);
-  if (truth) return without_stamps(truth->file, truth->T_world_lidar);
+  auto truth = read_ground_truth(path, instant);
+  if (truth) return truth_of_data(path, std::move(*truth), instant);
   throw IoError(
       {path, "", "no ground truth", "poses.txt, poses_mid.txt or poses_velo.txt in it", "Give the pose file itself"});
 }
@@ -71,19 +149,21 @@ Pairing parse_pairing(const std::string& text) {
 PairedPoses pair_poses(const PoseFile& truth, const PoseFile& estimate, const PairingOptions& options) {
   const bool stamped = truth.stamped && estimate.stamped;
   if (options.pairing == Pairing::kStamp && !stamped) {
-    throw RunError(RunErrorKind::kUsage, "--associate stamp needs stamps in both files; a KITTI pose file has none");
+    throw RunError(
+        RunErrorKind::kUsage,
+        "--associate stamp needs stamps of both; a KITTI pose file has none, nor have data without a list of "
+        "increasing stamps");
   }
   const std::size_t in_truth = truth.trajectory.size();
   const std::size_t in_estimate = estimate.trajectory.size();
   PairedPoses paired;
   try {
-    if (stamped && options.pairing != Pairing::kIndex) {
-      const auto gap_ns = static_cast<std::int64_t>(std::llround(options.max_gap_s * 1e9));
-      paired.poses = match_by_stamp(truth.trajectory, estimate.trajectory, gap_ns);
-      paired.protocol = fmt::format("paired by stamp, at most {} s apart", options.max_gap_s);
+    if (options.pairing == Pairing::kStamp) {
+      paired = paired_by_stamp(truth, estimate, options);
+    } else if (stamped && options.pairing == Pairing::kAuto) {
+      paired = paired_automatically(truth, estimate, options);
     } else {
-      paired.poses = by_index(truth.trajectory, estimate.trajectory, options.first);
-      paired.protocol = fmt::format("paired by index from true pose {} on", options.first);
+      paired = paired_by_index(truth, estimate, options);
     }
   } catch (const std::invalid_argument& error) {
     throw RunError(RunErrorKind::kBadData, fmt::format("{} ({} poses) and {} ({} poses): {}", truth.file.string(),
@@ -91,6 +171,7 @@ PairedPoses pair_poses(const PoseFile& truth, const PoseFile& estimate, const Pa
   }
   paired.protocol +=
       fmt::format("; {} of {} true and {} estimated poses", paired.poses.truth.size(), in_truth, in_estimate);
+  paired.warnings.insert(paired.warnings.begin(), truth.warnings.begin(), truth.warnings.end());
   return paired;
 }
 

@@ -8,23 +8,21 @@
 #include <fmt/format.h>
 
 #include "cloud/deskew.hpp"
+#include "io/stamp_difference.hpp"
+#include "results/sweep_times.hpp"
 #include "rilo/session/session.hpp"
 
 namespace rilo {
 
 namespace {
 
-/// Middle of the earliest and latest finite time; 0 without times.
-float middle_s(const std::vector<float>& times_s) {
-  std::optional<std::pair<float, float>> span;
-  for (const float t : times_s) {
-    if (!std::isfinite(t)) continue;
-    span = span ? std::pair(std::min(span->first, t), std::max(span->second, t)) : std::pair(t, t);
-  }
-  return span ? 0.5F * (span->first + span->second) : 0.0F;
-}
+float middle_s(const Sweep& sweep) { return instant_s(sweep.times_s, PoseInstant::kMid); }
 
 }  // namespace
+
+std::int64_t middle_ns(const Sweep& sweep) {
+  return sweep.stamp_ns + std::llround(static_cast<double>(middle_s(sweep)) * 1e9);
+}
 
 SweepPoses::SweepPoses(PoseFile file, const PairingOptions& options)
     : file_(std::move(file)),
@@ -43,17 +41,14 @@ SweepPoses::SweepPoses(PoseFile file, const PairingOptions& options)
   }
 }
 
-std::optional<SweepPose> SweepPoses::of(const Sweep& sweep, std::size_t index, double period_s) const {
-  std::size_t i = index;
-  if (by_stamp_) {
-    const std::int64_t instant_ns = sweep.stamp_ns + std::llround(static_cast<double>(middle_s(sweep.times_s)) * 1e9);
-    i = nearest(instant_ns);
-    if (i < size() && std::abs(static_cast<double>(file_.trajectory[i].stamp_ns - instant_ns)) > max_gap_s_ * 1e9) {
-      return std::nullopt;
-    }
-  }
+std::optional<SweepPose> SweepPoses::of(const SweepWithNeighbours& sweep, double period_s) const {
+  const std::size_t i = by_stamp_ ? nearest(sweep.middle_ns) : sweep.index;
   if (i >= size()) return std::nullopt;
-  return SweepPose{file_.trajectory[i].T_odom_lidar, twist(i, period_s)};
+  if (!by_stamp_) return SweepPose{file_.trajectory[i].T_odom_lidar, twist(i, sweep, period_s)};
+  if (std::abs(static_cast<double>(file_.trajectory[i].stamp_ns - sweep.middle_ns)) > max_gap_s_ * 1e9) {
+    return std::nullopt;
+  }
+  return SweepPose{file_.trajectory[i].T_odom_lidar, twist(i)};
 }
 
 std::size_t SweepPoses::nearest(std::int64_t stamp_ns) const {
@@ -68,15 +63,27 @@ std::size_t SweepPoses::nearest(std::int64_t stamp_ns) const {
 }
 
 // Between the neighbouring poses: what the trajectory itself says about the motion during the sweep.
-Vector6d SweepPoses::twist(std::size_t i, double period_s) const {
+Vector6d SweepPoses::twist(std::size_t i) const {
   const std::size_t before = i == 0 ? 0 : i - 1;
   const std::size_t after = std::min(i + 1, size() - 1);
+  return twist(before, after,
+               static_cast<double>(file_.trajectory[after].stamp_ns - file_.trajectory[before].stamp_ns) * 1e-9);
+}
+
+// The same by the times of the sweeps, between which others may be missing.
+Vector6d SweepPoses::twist(std::size_t i, const SweepWithNeighbours& sweep, double period_s) const {
+  const std::size_t before = sweep.before_ns && i > 0 ? i - 1 : i;
+  const std::size_t after = sweep.after_ns && i + 1 < size() ? i + 1 : i;
+  const std::int64_t begin_ns = before < i ? *sweep.before_ns : sweep.middle_ns;
+  const std::int64_t end_ns = after > i ? *sweep.after_ns : sweep.middle_ns;
+  const double dt_s = static_cast<double>(detail::stamp_difference(end_ns, begin_ns)) * 1e-9;
+  // Stamps that stand still or go back say nothing.
+  return twist(before, after, dt_s > 0 ? dt_s : static_cast<double>(after - before) * period_s);
+}
+
+Vector6d SweepPoses::twist(std::size_t before, std::size_t after, double dt_s) const {
   if (before == after) return Vector6d::Zero();
-  const StampedPose& a = file_.trajectory[before];
-  const StampedPose& b = file_.trajectory[after];
-  const double dt_s =
-      by_stamp_ ? static_cast<double>(b.stamp_ns - a.stamp_ns) * 1e-9 : static_cast<double>(after - before) * period_s;
-  return se3_log(a.T_odom_lidar.inverse() * b.T_odom_lidar) / dt_s;
+  return se3_log(file_.trajectory[before].T_odom_lidar.inverse() * file_.trajectory[after].T_odom_lidar) / dt_s;
 }
 
 std::string SweepPoses::protocol() const {
@@ -85,7 +92,7 @@ std::string SweepPoses::protocol() const {
 
 std::vector<Eigen::Vector3f> points_at(const Sweep& sweep, const SweepPose& pose) {
   if (sweep.times_s.empty()) return sweep.points;
-  const float middle = middle_s(sweep.times_s);
+  const float middle = middle_s(sweep);
   TimedCloud cloud{sweep.points, sweep.times_s};
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!std::isfinite(cloud.offsets_s[i])) {  // of unknown time: dropped as NaN

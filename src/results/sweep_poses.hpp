@@ -20,14 +20,24 @@ struct SweepPose {
   Vector6d twist = Vector6d::Zero();  ///< body velocity [rad/s; m/s]
 };
 
+/// The middle of the sweep.
+std::int64_t middle_ns(const Sweep& sweep);
+
+/// When a sweep and those around it were measured.
+struct SweepWithNeighbours {
+  std::size_t index = 0;  ///< it was read as number `index`
+  std::int64_t middle_ns = 0;
+  std::optional<std::int64_t> before_ns, after_ns;  ///< the middles of the sweeps before and after it
+};
+
 /// Looks up the poses of sweeps by index or by stamp.
 class SweepPoses {
  public:
   /// @throws RunError when stamps are wanted and there are none, or are there and do not increase.
   SweepPoses(PoseFile file, const PairingOptions& options);
 
-  /// Of the sweep that was read as number `index`; nothing when it has none.
-  std::optional<SweepPose> of(const Sweep& sweep, std::size_t index, double period_s) const;
+  /// Nothing when the sweep has none.
+  std::optional<SweepPose> of(const SweepWithNeighbours& sweep, double period_s) const;
 
   /// Whether no sweep from `index` on has a pose.
   bool end(std::size_t index) const { return !by_stamp_ && index >= size(); }
@@ -37,7 +47,9 @@ class SweepPoses {
 
  private:
   std::size_t nearest(std::int64_t stamp_ns) const;
-  Vector6d twist(std::size_t i, double period_s) const;
+  Vector6d twist(std::size_t i) const;
+  Vector6d twist(std::size_t i, const SweepWithNeighbours& sweep, double period_s) const;
+  Vector6d twist(std::size_t before, std::size_t after, double dt_s) const;
 
   PoseFile file_;
   double max_gap_s_;

@@ -1,4 +1,6 @@
 // rilo eval.
+#include <utility>
+
 #include "cli/drives.hpp"
 
 namespace rilo::test {
@@ -27,11 +29,7 @@ std::string straight_tum(int steps, double offset_s, double scale = 1.0) {
   return text;
 }
 
-TEST(EvalCommand, AgreesWithTheMetricsOfTheRun) {
-  const TempDir folder;
-  rilo_succeeds({"run", shared_drive(), "--out", folder / "out", "--quiet"});
-  const json of_run = json_file(folder / "out" / "metrics.json")["evaluation"];
-  const json of_eval = eval({shared_drive(), folder / "out" / "poses_lidar.txt"});
+void expect_same_figures(const json& of_eval, const json& of_run) {
   EXPECT_EQ(of_eval["poses"], of_run["poses"]);
   EXPECT_EQ(of_eval["t_rel_protocol"], of_run["t_rel_protocol"]);
   for (const char* key : {"t_rel_pct", "r_rel_deg_per_100m", "path_m", "end_error_m"}) {
@@ -43,6 +41,61 @@ TEST(EvalCommand, AgreesWithTheMetricsOfTheRun) {
       EXPECT_NEAR(of_eval[key][figure].get<double>(), of_run[key][figure].get<double>(), 1e-6) << key << figure;
     }
   }
+}
+
+// Of a run with these options, whose poses are in `out`.
+json figures_of_run(const std::filesystem::path& data, const std::filesystem::path& out,
+                    const std::vector<std::string>& more) {
+  std::vector<std::string> command = {"run", data, "--out", out, "--no-report", "--quiet"};
+  command.insert(command.end(), more.begin(), more.end());
+  rilo_succeeds(command);
+  return json_file(out / "metrics.json")["evaluation"];
+}
+
+TEST(EvalCommand, AgreesWithTheMetricsOfTheRun) {
+  const TempDir folder;
+  const json of_run = figures_of_run(shared_drive(), folder / "out", {});
+  expect_same_figures(eval({shared_drive(), folder / "out" / "poses_lidar.txt"}), of_run);
+  expect_same_figures(eval({shared_drive(), folder / "out" / "trajectory.tum"}), of_run);
+}
+
+TEST(EvalCommand, StampsTellWhichSweepsOfTheDataWereRun) {
+  const TempDir folder;
+  const std::vector<std::vector<std::string>> runs = {
+      {"--start", "3"},
+      {"--start", "3", "--point-times", "none"},      // poses are at the stamps
+      {"--start", "2", "--point-times", "azimuth"}};  // half a sweep later
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    SCOPED_TRACE(i);
+    const auto out = folder / std::to_string(i);
+    const json of_run = figures_of_run(shared_drive(), out, runs[i]);
+    expect_same_figures(eval({shared_drive(), out / "trajectory.tum"}), of_run);
+    expect_same_figures(eval({shared_drive(), out / "trajectory.tum", "--associate", "stamp"}), of_run);
+    expect_same_figures(eval({shared_drive(), out / "poses_lidar.txt", runs[i][0], runs[i][1]}), of_run);
+  }
+}
+
+TEST(EvalCommand, ASweepThatWasSkippedMovesNoOther) {
+  const TempDir folder;
+  const auto drive = copy_of_drive(folder);
+  append(sweep_file(drive, 5), 3);
+  const json of_run = figures_of_run(drive, folder / "out", {"--skip-bad-sweeps"});
+  ASSERT_EQ(of_run["poses"], kDriveSweeps - 1);
+  expect_same_figures(eval({drive, folder / "out" / "trajectory.tum"}), of_run);
+  const Outcome by_index = rilo_succeeds({"eval", drive, folder / "out" / "poses_lidar.txt"});
+  expect_parts(by_index.err, {"poses_lidar.txt", "12 true and 11 estimated poses", "lacks a sweep"});
+}
+
+TEST(EvalCommand, StampsOfAnotherClockLeaveTheIndex) {
+  const TempDir folder;
+  const json of_run = figures_of_run(shared_drive(), folder / "out", {});
+  std::string text;
+  for (const std::string& line : lines_of(slurp(folder / "out" / "trajectory.tum"))) {
+    if (!line.starts_with("#")) text += "1" + line + "\n";
+  }
+  const std::string other = folder.write("other.tum", text);
+  expect_same_figures(eval({shared_drive(), other}), of_run);
+  rilo_fails(3, {"eval", shared_drive(), other, "--associate", "stamp"}, {"other.tum", "clock", "--associate index"});
 }
 
 TEST(EvalCommand, KittiByHand) {
@@ -81,11 +134,33 @@ TEST(EvalCommand, MixedForms) {
   rilo_fails(2, {"eval", tum, kitti, "--associate", "stamp"}, {"stamp"});
 }
 
-TEST(EvalCommand, LengthsThatDoNotFit) {
+TEST(EvalCommand, OfDifferentLengthsTheFirstAreCompared) {
   const TempDir folder;
   const std::string shorter = folder.write("shorter.txt", straight_kitti(9));
   const std::string longer = folder.write("longer.txt", straight_kitti(10));
-  rilo_fails(3, {"eval", shorter, longer}, {"shorter.txt (9 poses)", "longer.txt (10 poses)"});
+  for (const auto& [truth, estimate] : {std::pair(shorter, longer), std::pair(longer, shorter)}) {
+    const json figures = eval({truth, estimate});
+    EXPECT_EQ(figures["poses"], 9);
+    EXPECT_EQ(figures["warnings"].size(), 1U);
+    expect_parts(rilo_succeeds({"eval", truth, estimate}).err, {"rilo: warning:", "the first 9"});
+  }
+  EXPECT_EQ(rilo_succeeds({"eval", longer, shorter, "--start", "1"}).err, "");
+  const std::string one = folder.write("one.txt", straight_kitti(1));
+  rilo_fails(3, {"eval", one, longer}, {"one.txt (1 poses)", "longer.txt (10 poses)"});
+}
+
+TEST(EvalCommand, TruthOfTheDataMayBeShorterAsForARun) {
+  const TempDir folder;
+  const auto drive = copy_of_drive(folder);
+  const auto lines = lines_of(slurp(drive / "poses_mid.txt"));
+  std::string text;
+  for (std::size_t i = 0; i + 2 < lines.size(); ++i) text += lines[i] + "\n";
+  replace(drive / "poses_mid.txt", text);
+  const json of_run = figures_of_run(drive, folder / "out", {});
+  ASSERT_EQ(of_run["poses"], kDriveSweeps - 2);
+  expect_same_figures(eval({drive, folder / "out" / "poses_lidar.txt"}), of_run);
+  expect_same_figures(eval({drive, folder / "out" / "trajectory.tum"}), of_run);
+  expect_parts(rilo_succeeds({"eval", drive, folder / "out" / "trajectory.tum"}).err, {"10 poses for 12 sweeps"});
 }
 
 TEST(EvalCommand, FilesThatAreNoPoses) {

@@ -88,6 +88,23 @@ TEST(QualityCommand, StampsPairAsTheIndexDoes) {
   EXPECT_NE(told["protocol"].get<std::string>().find("by index"), std::string::npos);
 }
 
+TEST(QualityCommand, AGapIsTheSameByIndexAndByStamp) {
+  const TempDir folder;
+  const auto drive = copy_of_drive(folder);
+  std::filesystem::remove(sweep_file(drive, 5));
+  std::filesystem::remove(drive / "times_pt" / "000005.bin");
+  std::vector<std::string> times = lines_of(slurp(drive / "times.txt"));
+  times.erase(times.begin() + 5);
+  std::string text;
+  for (const std::string& line : times) text += line + "\n";
+  replace(drive / "times.txt", text);
+  rilo_succeeds({"run", drive, "--no-truth", "--out", folder / "out", "--quiet"});
+  const json by_index = quality(drive, folder / "out" / "poses_lidar.txt");
+  const json by_stamp = quality(drive, folder / "out" / "trajectory.tum");
+  EXPECT_EQ(by_stamp["sweeps"], kDriveSweeps - 1);
+  EXPECT_NEAR(rms(by_stamp), rms(by_index), 1e-4 * rms(by_index));
+}
+
 TEST(QualityCommand, OnlySweepsWithAPoseCount) {
   const TempDir folder;
   rilo_succeeds({"run", shared_drive(), "--out", folder / "out", "--quiet"});

@@ -4,6 +4,8 @@
 #include <system_error>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "io/file_bytes.hpp"
 #include "io/kitti_oxts.hpp"
 #include "io/scan_listing.hpp"
@@ -27,6 +29,19 @@ GroundTruth camera_frame(const fs::path& file, const SE3& T_cam_lidar) {
   return {camera_to_lidar(read_kitti_poses(file), T_cam_lidar), file, "stamp", {}};
 }
 
+// What a drive simulator says of its poses.txt ("end of the sweep"); "stamp" where nothing does.
+std::string instant_of_poses(const fs::path& data) {
+  const fs::path meta = data / "meta.json";
+  if (!detail::is_file(meta)) return "stamp";
+  const detail::FileBytes bytes = detail::read_file(meta);
+  const auto json = nlohmann::json::parse(bytes.view(), nullptr, false);
+  const auto found = json.find("reference_time");
+  if (found == json.end() || !found->is_string()) return "stamp";
+  const std::string text = found->get<std::string>();
+  const std::string word = text.substr(0, text.find(' '));
+  return parse_pose_instant(word) ? word : "stamp";
+}
+
 // KITTI odometry: sequences/NN beside poses/NN.txt.
 fs::path official_poses(const fs::path& data) {
   std::error_code error;
@@ -41,9 +56,11 @@ std::optional<GroundTruth> find_truth(const fs::path& data, PoseInstant instant)
   if (const fs::path file = data / "poses_velo.txt"; detail::is_file(file)) return lidar_frame(file, "stamp");
   const auto T_cam_lidar = calibration_of(data);
   if (const fs::path file = data / "poses.txt"; detail::is_file(file)) {
-    if (T_cam_lidar) return camera_frame(file, *T_cam_lidar);
-    GroundTruth truth = lidar_frame(file, "stamp");
-    truth.warnings.emplace_back("no Tr in calib.txt: poses.txt is taken to be in the LiDAR frame");
+    GroundTruth truth = T_cam_lidar ? camera_frame(file, *T_cam_lidar) : lidar_frame(file, "stamp");
+    truth.instant = instant_of_poses(data);
+    if (!T_cam_lidar) {
+      truth.warnings.emplace_back("no Tr in calib.txt: poses.txt is taken to be in the LiDAR frame");
+    }
     return truth;
   }
   if (auto truth = detail::kitti_raw_truth(data)) return truth;
@@ -87,8 +104,10 @@ std::optional<GroundTruth> read_ground_truth(const fs::path& data, PoseInstant i
   auto truth = find_truth(data, instant);
   if (!truth) return std::nullopt;
   // Spinning sensors stamp the middle of the sweep (KITTI); the others are half a sweep away.
-  if (truth->instant == "stamp" && instant != PoseInstant::kMid) {
-    truth->warnings.push_back(truth->file.filename().string() + " is at the stamps, not at the " +
+  const bool at_stamps = truth->instant == "stamp";
+  if (at_stamps ? instant != PoseInstant::kMid : truth->instant != to_string(instant)) {
+    truth->warnings.push_back(truth->file.filename().string() + " is at the " +
+                              (at_stamps ? "stamps" : truth->instant) + ", not at the " +
                               std::string(to_string(instant)) + " of the sweeps");
   }
   compare_counts(data, *truth);

@@ -76,6 +76,23 @@ TEST(GroundTruthTest, CameraFrameComesToTheLidarFrame) {
   EXPECT_NE(plain->warnings[0].find("LiDAR frame"), std::string::npos);
 }
 
+TEST(GroundTruthTest, AnotherTimeOfTheSweepIsSaid) {
+  const TempDir folder;
+  write_sweeps(folder, "d", 1);
+  folder.write("d/calib.txt", kCalib);
+  folder.write("d/poses.txt", kitti_row(1, 2, 3));
+  folder.write("d/meta.json", R"({"reference_time": "end of the sweep"})");
+  const auto truth = read_ground_truth(folder / "d", PoseInstant::kMid);
+  EXPECT_EQ(truth->instant, "end");
+  ASSERT_EQ(truth->warnings.size(), 1U);
+  EXPECT_EQ(truth->warnings[0], "poses.txt is at the end, not at the mid of the sweeps");
+  EXPECT_TRUE(read_ground_truth(folder / "d", PoseInstant::kEnd)->warnings.empty());
+  for (const char* other : {R"({"reference_time": "GPS"})", R"({"rate_hz": 10})", "[]", "none"}) {
+    folder.write("d/meta.json", other);
+    EXPECT_EQ(read_ground_truth(folder / "d", PoseInstant::kMid)->instant, "stamp");
+  }
+}
+
 TEST(GroundTruthTest, KittiOdometryLayout) {
   const TempDir folder;
   write_sweeps(folder, "sequences/07", 1);

@@ -9,6 +9,7 @@ namespace rilo {
 namespace {
 
 std::string row(const char* name, const ErrorSummary& s, const char* unit) {
+  if (s.count == 0) return fmt::format("{:<34} none: the path is too short\n", name);
   return fmt::format("{:<34} rmse {:>9.4f}  mean {:>9.4f}  std {:>9.4f}  median {:>9.4f}  max {:>9.4f} {}\n", name,
                      s.rmse, s.mean, s.std, s.median, s.max, unit);
 }
@@ -38,8 +39,9 @@ std::string evaluation_table(const Evaluation& e) {
   text += row("RPE per frame, rotation", e.rpe_frame.rotation_deg, "deg");
   text += row("RPE per metre", e.rpe_metre.translation_m, "m/m");
   text += row("RPE per metre, rotation", e.rpe_metre.rotation_deg, "deg/m");
-  text += fmt::format("{:<34} {:.4f} m ({:.4f} % of the path)\n", "End point", e.end_error_m, e.end_error_pct);
-  return text;
+  text += fmt::format("{:<34} {:.4f} m", "End point", e.end_error_m);
+  if (e.path_m > 0) text += fmt::format(" ({:.4f} % of the path)", e.end_error_pct);
+  return text + "\n";
 }
 
 nlohmann::json benchmark_json(const KittiBenchmark& b) {

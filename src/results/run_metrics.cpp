@@ -74,6 +74,7 @@ std::optional<BudgetMetrics> budget(const RunRecord& run) {
 
 // What the run found out about the sensor's angles; the correction given on the command line comes on top.
 void add_sensor_angles(const RunRecord& run, RunMetrics& metrics) {
+  metrics.elevation_initial_deg = run.config.elevation.enabled ? run.config.elevation.initial_deg : 0.0;
   metrics.elevation_offset_applied_deg = 0.0;
   metrics.started_over_after_sweeps = run.started_over_after;
   if (run.results.empty()) return;
@@ -106,7 +107,11 @@ void add_data(const RunRecord& run, RunMetrics& metrics) {
   metrics.warnings = source.warnings;
 }
 
-ErrorMetrics summary(const ErrorSummary& s) { return {s.rmse, s.mean, s.std, s.median, s.max}; }
+// Without an error there is no figure: 0 would be a perfect one.
+ErrorMetrics summary(const ErrorSummary& s) {
+  if (s.count == 0) return {};
+  return {s.rmse, s.mean, s.std, s.median, s.max};
+}
 
 }  // namespace
 
@@ -125,7 +130,7 @@ EvaluationMetrics evaluation_metrics(const Evaluation& e) {
   metrics.rpe_metre_m_per_m = summary(e.rpe_metre.translation_m);
   metrics.rpe_metre_deg_per_m = summary(e.rpe_metre.rotation_deg);
   metrics.end_error_m = e.end_error_m;
-  metrics.end_error_pct = e.end_error_pct;
+  if (e.path_m > 0) metrics.end_error_pct = e.end_error_pct;
   return metrics;
 }
 

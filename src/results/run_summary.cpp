@@ -37,17 +37,28 @@ std::string statuses(const RunMetrics& m) {
   return text;
 }
 
-// One name for each of the three: given on the command line, estimated, applied on top of what is given.
-std::string angles(const RunMetrics& m) {
+// What comes from outside: the points come with the one, the run begins with the other on top.
+std::string given_angles(const RunMetrics& m) {
+  const double points_deg = m.elevation_correction_deg.value_or(0);
+  const double initial_deg = m.started_over_after_sweeps ? 0 : m.elevation_initial_deg.value_or(0);
   std::string text;
-  if (m.elevation_correction_deg.value_or(0) != 0.0) {
-    text += fmt::format("elevation given {:+.3f} deg (--elevation-correction)\n", *m.elevation_correction_deg);
+  if (points_deg != 0.0) text = fmt::format("{:+.3f} deg (--elevation-correction)", points_deg);
+  if (initial_deg != 0.0) {
+    text += fmt::format("{}{:+.3f} deg (elevation.initial_deg)", text.empty() ? "" : " and ", initial_deg);
+    if (points_deg != 0.0) text += fmt::format(", {:+.3f} deg together", points_deg + initial_deg);
   }
+  return text.empty() ? "" : "elevation given " + text + "\n";
+}
+
+// One name for each of the three: given from outside, estimated, applied on top of what --elevation-correction gives.
+std::string angles(const RunMetrics& m) {
+  std::string text = given_angles(m);
   if (m.elevation_offset_deg) {
     text += fmt::format("elev. offset    estimated {:+.3f} ± {:.3f} deg, applied {:+.3f} deg", *m.elevation_offset_deg,
                         m.elevation_offset_sigma_deg.value_or(0), m.elevation_offset_applied_deg.value_or(0));
     if (m.started_over_after_sweeps) {
-      text += fmt::format(" from the first sweep on (restarted after {} sweeps)", *m.started_over_after_sweeps);
+      text += fmt::format(" at last, {:+.3f} deg from the first sweep on (restarted after {} sweeps)",
+                          m.elevation_initial_deg.value_or(0), *m.started_over_after_sweeps);
     }
     text += "\n";
   }

@@ -1,6 +1,7 @@
 // Figures of a run as JSON and back.
 #include <gmock/gmock.h>
 
+#include "results/evaluation_output.hpp"
 #include "results/metrics_json.hpp"
 #include "results/run_metrics.hpp"
 #include "rilo/io/io_error.hpp"
@@ -99,9 +100,35 @@ TEST(Metrics, TheSummaryNamesOneElevationOffset) {
   EXPECT_THAT(text, HasSubstr("median 25.0"));
   run.source.elevation_correction_deg = 0.205;
   run.started_over_after = 18;
+  run.config.elevation.initial_deg = 0.197;
   const std::string corrected = run_summary(run_metrics(run));
   EXPECT_THAT(corrected, HasSubstr("given +0.205 deg (--elevation-correction)"));
-  EXPECT_THAT(corrected, HasSubstr("restarted after 18 sweeps"));
+  EXPECT_THAT(corrected,
+              HasSubstr("applied +0.201 deg at last, +0.197 deg from the first sweep on (restarted after 18 sweeps)"));
+}
+
+TEST(Metrics, TheSummaryAddsUpTheAnglesThatWereGiven) {
+  RunRecord run = short_run();
+  run.source.elevation_correction_deg = 0.2;
+  run.config.elevation.initial_deg = 0.1;
+  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("given +0.200 deg (--elevation-correction) and +0.100 deg "
+                                                       "(elevation.initial_deg), +0.300 deg together"));
+  run.source.elevation_correction_deg = 0;
+  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg (elevation.initial_deg)\n"));
+  run.config.elevation.enabled = false;
+  EXPECT_THAT(run_summary(run_metrics(run)), Not(HasSubstr("elevation given")));
+}
+
+TEST(Metrics, AFigureWithoutAnErrorBehindItIsNone) {
+  const std::vector<SE3> standing(3, SE3::Identity());
+  const json metrics = to_json(evaluation_metrics(evaluate(standing, standing)));
+  EXPECT_TRUE(metrics["rpe_metre_m_per_m"]["rmse"].is_null()) << metrics;
+  EXPECT_TRUE(metrics["end_error_pct"].is_null());
+  EXPECT_EQ(metrics["end_error_m"], 0.0);
+  EXPECT_EQ(metrics["rpe_frame_m"]["rmse"], 0.0);
+  const std::string text = evaluation_table(evaluate(standing, standing));
+  EXPECT_THAT(text, HasSubstr("RPE per metre                      none"));
+  EXPECT_THAT(text, Not(HasSubstr("% of the path")));
 }
 
 TEST(Metrics, TheSummaryExplainsMapsThatBeginAgainAndAgain) {

@@ -1,4 +1,5 @@
 // rilo run: odometry over recorded sweeps.
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -16,8 +17,8 @@
 #include "console/text.hpp"
 #include "io/text.hpp"
 #include "results/metrics_json.hpp"
-#include "results/run_metrics.hpp"
 #include "results/output_check.hpp"
+#include "results/run_metrics.hpp"
 #include "results/run_observers.hpp"
 #include "results/run_outputs.hpp"
 #include "results/run_record.hpp"
@@ -77,6 +78,7 @@ int finish(const RunFlags& flags, const RunRecord& run, PartialPoses& partial) {
   } else if (!flags.quiet) {
     std::cout << run_summary(metrics);
     if (!flags.out.empty()) std::cout << "results         " << flags.out << '\n';
+    if (!flags.map.empty()) std::cout << "map             " << flags.map << '\n';
   }
   if (!run.error.empty()) {
     throw RunError(kind_of(run.error_code),
@@ -140,8 +142,9 @@ void show_the_rest(const RunFlags& flags, const RunRecord& run, LiveView& view) 
   wait_for_signal();
 }
 
-/// A map without a folder belongs to the other results.
+/// A map without a folder belongs to the other results; without a map nothing needs its intensities.
 RunFlags completed(RunFlags flags) {
+  flags.map_intensity = flags.map_intensity && !flags.map.empty();
   const std::filesystem::path map = flags.map;
   if (!flags.out.empty() && !map.empty() && !map.has_parent_path()) flags.map = std::filesystem::path(flags.out) / map;
   return flags;
@@ -153,10 +156,10 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   run.data = flags.data;
   run.config = configuration(flags);
   auto session = std::make_unique<Session>(source_of(flags), session_options(flags, run.config));
+  check_outputs(flags, flags, flags.config_file);
   prepare_outputs(flags);
   if (flags.out.empty() && !flags.quiet) std::cerr << "rilo: note: results are not kept; --out FOLDER keeps them\n";
   const FolderLock lock(flags.out);
-  check_outputs(flags, flags, flags.config_file);
   const InterruptGuard guard;
   const auto view = open_view(flags, session->source(), run.config);
   PartialPoses partial(flags.out);
@@ -175,6 +178,20 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   const int exit_code = finish(flags, run, partial);
   if (view && run.signal == 0) show_the_rest(flags, run, *view);
   return exit_code;
+}
+
+/// Options that are given without the one that they belong to.
+void warn_of_idle_options(const CLI::App& command) {
+  constexpr std::array<std::pair<const char*, const char*>, 6> kNeeds = {{{"--map-voxel", "--map"},
+                                                                          {"--map-normals", "--map"},
+                                                                          {"--map-intensity", "--map"},
+                                                                          {"--odom-frame", "--out"},
+                                                                          {"--lidar-frame", "--out"},
+                                                                          {"--view-address", "--view"}}};
+  for (const auto& [option, needed] : kNeeds) {
+    if (command.count(option) == 0 || command.count(needed) > 0) continue;
+    std::cerr << "rilo: warning: " << option << " is ignored: it is of no use without " << needed << '\n';
+  }
 }
 
 void add_flags(CLI::App& command, RunFlags& flags) {
@@ -221,7 +238,10 @@ void add_run_command(CLI::App& app, const std::string& command_line, int& exit_c
   CLI::App* command = app.add_subcommand("run", "odometry over recorded sweeps");
   command->footer(kRunFooter);
   add_flags(*command, *flags);
-  command->callback([flags, command_line, &exit_code] { exit_code = run_command(completed(*flags), command_line); });
+  command->callback([command, flags, command_line, &exit_code] {
+    if (!flags->quiet) warn_of_idle_options(*command);
+    exit_code = run_command(completed(*flags), command_line);
+  });
 }
 
 }  // namespace rilo::cli

@@ -100,6 +100,28 @@ TEST(RunFlags, AMapWithoutAFolderGoesIntoOutAndAStaleOneGoesAway) {
   EXPECT_TRUE(std::filesystem::exists(out / "other.ply")) << "may be somebody's";
 }
 
+TEST(RunFlags, AMapIsNamedInTheSummary) {
+  const TempDir folder;
+  const std::string map = folder / "map.ply";
+  EXPECT_THAT(rilo_succeeds({"run", shared_drive(), "--count", "2", "--map", map}).out,
+              testing::HasSubstr("map             " + map + "\n"));
+}
+
+TEST(RunFlags, OptionsWithoutTheOneTheyBelongToAreNamed) {
+  const std::vector<std::string> run = {"run", shared_drive(), "--count", "2", "--map-voxel", "0.5", "--map-normals"};
+  const auto warnings = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command = run;
+    command.insert(command.end(), more.begin(), more.end());
+    return lines_with(rilo_succeeds(command).err, "rilo: warning: --");
+  };
+  const auto idle = warnings({"--map-intensity", "--lidar-frame", "velodyne", "--view-address", "127.0.0.1"});
+  EXPECT_EQ(idle.size(), 5U);
+  EXPECT_EQ(idle.at(0), "rilo: warning: --map-voxel is ignored: it is of no use without --map");
+  const TempDir folder;
+  EXPECT_TRUE(warnings({"--map", folder / "map.ply"}).empty());
+  EXPECT_TRUE(warnings({"--quiet"}).empty());
+}
+
 TEST(RunFlags, JsonIsTheMetricsFile) {
   const TempDir folder;
   const json printed = metrics_of({"--count", "3", "--out", folder / "out"});

@@ -10,23 +10,28 @@
 
 namespace rilo {
 
-/// Number of points and some of them: those of another sweep never have the same bits.
+/// Number of points and some of those that were measured: those of another sweep never have the same bits. Without any
+/// nothing is said, and no other is equal.
 class Fingerprint {
  public:
   Fingerprint() = default;
   explicit Fingerprint(std::span<const Eigen::Vector3f> points) : size_(points.size()) {
     for (std::size_t i = 0; i < points.size(); i += kStride) {
-      sample_.push_back(points[i]);
+      if (points[i].allFinite() && !points[i].isZero(0.0F)) {
+        sample_.push_back(points[i]);
+      }
     }
   }
 
   bool operator==(const Fingerprint& other) const {
-    return size_ == other.size_ &&
-           (size_ == 0 || std::memcmp(sample_.data(), other.sample_.data(), sample_.size() * sizeof(sample_[0])) == 0);
+    return size_ == other.size_ && sample_.size() == other.sample_.size() && !sample_.empty() &&
+           std::memcmp(sample_.data(), other.sample_.data(), sample_.size() * sizeof(sample_[0])) == 0;
   }
 
  private:
-  static constexpr std::size_t kStride = 32;  // a sample suffices: two sweeps of a sensor share hardly a point
+  // A sample suffices: two sweeps of a sensor share hardly a point. A prime: any other may meet the same beam again and
+  // again.
+  static constexpr std::size_t kStride = 31;
   std::size_t size_ = 0;
   std::vector<Eigen::Vector3f> sample_;
 };

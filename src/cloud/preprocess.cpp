@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t kBeamSample = 4000;  // points: enough for 128 beams at little cost
 constexpr std::size_t kPhaseStep = 7;      // prime: the samples of successive sweeps differ
+constexpr double kMostGrowth = 1.4;        // of the voxel in a sweep, as if half of the points were missing
 constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz
 
 void find_angles(const BeamAngles& of, std::span<const Beam> beams, PointBlock::Lanes<float>& elevation_rad,
@@ -64,11 +65,12 @@ const PreparedSweep& Preprocessor::prepare(const SweepView& sweep) {
     source_voxel_m_ = config_.max_voxel_m;
     for (int pass = 1; pass < kFirstPasses; ++pass) {
       downsample(source_voxel_m_);
-      adapt_voxel();
+      adapt_voxel(std::numeric_limits<double>::infinity());
     }
   }
   downsample(source_voxel_m_ > 0.0 ? source_voxel_m_ : config_.max_voxel_m);
-  adapt_voxel();
+  // A single sparse sweep must not make the next ones dense.
+  adapt_voxel(scale_unknown ? std::numeric_limits<double>::infinity() : kMostGrowth);
   update_scene_range();
   if (scale_unknown && cropped_.size() == 0) {
     source_voxel_m_ = 0.0;
@@ -96,13 +98,15 @@ void Preprocessor::downsample(double source_voxel_m) {
   source_mean_.average(prepared_.map_cloud, source_voxel_m, prepared_.source);
 }
 
-void Preprocessor::adapt_voxel() {
+/// By a factor of at most `most_growth`, or its inverse.
+void Preprocessor::adapt_voxel(double most_growth) {
   if (prepared_.source.size() == 0) {
     return;
   }
   // Points lie on surfaces: their number goes with 1 / voxel².
   const double ratio = static_cast<double>(prepared_.source.size()) / source_points_;
-  source_voxel_m_ = std::clamp(source_voxel_m_ * std::sqrt(ratio), config_.min_voxel_m, config_.max_voxel_m);
+  const double growth = std::clamp(std::sqrt(ratio), 1.0 / most_growth, most_growth);
+  source_voxel_m_ = std::clamp(source_voxel_m_ * growth, config_.min_voxel_m, config_.max_voxel_m);
 }
 
 void Preprocessor::set_source_points(double points) {
@@ -189,8 +193,11 @@ std::size_t Preprocessor::find_valid(const SweepView& sweep, bool timed) {
 void Preprocessor::crop(const SweepView& sweep) {
   const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
   const std::size_t kept = find_valid(sweep, timed);
-  const float mid_s = timed && kept > 0 ? middle_of_times() : 0.0F;
-  prepared_.mid_stamp_ns = sweep.stamp_ns + static_cast<std::int64_t>(std::llround(static_cast<double>(mid_s) * 1e9));
+  const float mid_s = timed ? middle_of_times() : 0.0F;
+  const auto mid_ns = static_cast<std::int64_t>(std::llround(static_cast<double>(mid_s) * 1e9));
+  if (__builtin_add_overflow(sweep.stamp_ns, mid_ns, &prepared_.mid_stamp_ns)) {
+    prepared_.mid_stamp_ns = sweep.stamp_ns;  // a stamp that no clock has
+  }
   if (beams_tracked_) {
     beam_index_.assign(sweep, beams_);
   }
@@ -233,13 +240,13 @@ void Preprocessor::crop(const SweepView& sweep) {
   });
 }
 
-/// Middle of the span of the times (s) over all sweeps so far.
+/// Middle of the span of the times (s) over all sweeps so far, also for a sweep without points; 0 before the first.
 float Preprocessor::middle_of_times() {
   for (const Chunk& chunk : chunks_) {
     span_begin_s_ = std::min(span_begin_s_, chunk.begin_s);
     span_end_s_ = std::max(span_end_s_, chunk.end_s);
   }
-  return 0.5F * (span_begin_s_ + span_end_s_);
+  return span_begin_s_ <= span_end_s_ ? 0.5F * (span_begin_s_ + span_end_s_) : 0.0F;
 }
 
 }  // namespace rilo

@@ -74,7 +74,7 @@ class Preprocessor {
   float middle_of_times();
   void sample_beams();
   void downsample(double source_voxel_m);
-  void adapt_voxel();
+  void adapt_voxel(double most_growth);
   void update_scene_range();
 
   PreprocessConfig config_;

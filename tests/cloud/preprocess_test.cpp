@@ -51,6 +51,24 @@ Sweep timed(std::vector<Eigen::Vector3f> points, std::vector<float> times_s) {
   return sweep;
 }
 
+TEST(PreprocessTest, ATimedSweepWithoutPointsHasTheMiddleOfTheOthers) {
+  Preprocessor preprocessor(wide_config());
+  EXPECT_EQ(preprocessor.prepare(timed({}, {})).mid_stamp_ns, 1'000'000'000);
+  EXPECT_NEAR(static_cast<double>(preprocessor.prepare(timed({{5, 1, 1}, {6, 1, 1}}, {0.0F, 0.1F})).mid_stamp_ns),
+              1.05e9, 10.0);
+  const Eigen::Vector3f nothing = Eigen::Vector3f::Constant(kNan);
+  EXPECT_NEAR(static_cast<double>(preprocessor.prepare(timed({nothing}, {0.02F})).mid_stamp_ns), 1.05e9, 10.0);
+}
+
+TEST(PreprocessTest, OneSparseSweepDoesNotMakeTheNextExpensive) {
+  const Sweep usual = room(20.0F, 4.0F, 60'000, 3);
+  Preprocessor preprocessor(wide_config());
+  for (int i = 0; i < 5; ++i) preprocessor.prepare(usual);
+  const std::size_t before = preprocessor.prepare(usual).source.size();
+  preprocessor.prepare(room(20.0F, 4.0F, 300, 4));
+  EXPECT_LT(preprocessor.prepare(usual).source.size(), 21 * before / 10);
+}
+
 TEST(PreprocessTest, DropsWhatIsNotFiniteOrOutOfRange) {
   Sweep sweep;
   sweep.points = {{1.0F, 0.0F, 0.0F},   {kNan, 0.0F, 0.0F},    {0.0F, kInf, 0.0F},   {0.0F, 0.0F, -kInf},

@@ -65,4 +65,15 @@ void deskew(const TimedCloud& cloud, const BodyMotion& motion, std::vector<Eigen
   });
 }
 
+std::vector<Eigen::Vector3f> deskew_picked(const TimedCloud& cloud, const BodyMotion& motion, std::size_t count) {
+  const std::size_t n = std::min(count, cloud.size());
+  std::vector<Eigen::Vector3f> picked;
+  picked.reserve(n);
+  const SweepMotion poses = SweepMotion::during(cloud, motion);
+  for (std::size_t i = 0; i < n; ++i) {
+    picked.push_back(poses.compensated(cloud, i * cloud.size() / n));
+  }
+  return picked;
+}
+
 }  // namespace rilo

@@ -71,4 +71,7 @@ class SweepMotion {
 /// size.
 void deskew(const TimedCloud& cloud, const BodyMotion& motion, std::vector<Eigen::Vector3f>& out);
 
+/// The same for at most `count` of its points, evenly spread over their order.
+std::vector<Eigen::Vector3f> deskew_picked(const TimedCloud& cloud, const BodyMotion& motion, std::size_t count);
+
 }  // namespace rilo

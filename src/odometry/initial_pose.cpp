@@ -48,6 +48,7 @@ InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& 
 }
 
 InitialPose InitialPoseStage::choose(const Situation& situation) {
+  moving_.reset();
   const MotionState& predicted = situation.predicted;
   const ScoredPose prediction{predicted.T_odom_lidar,
                               candidate_score(situation, predicted.T_odom_lidar, predicted.twist)};
@@ -77,11 +78,12 @@ InitialPose InitialPoseStage::choose(const Situation& situation) {
 
 InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bool doubt) {
   const MotionState& predicted = situation.predicted;
-  moving_ =
-      distribution(compensated_, situation.coarse_share);  // for predicted.twist, since the prediction was scored last
+  deskew(situation.source, situation.single ? BodyMotion{predicted.twist} : predicted.motion(), compensated_);
+  moving_ = distribution(compensated_, situation.coarse_share);
   moving_twist_ = predicted.twist;
   if (!target_) {
-    target_ = distribution(target_points_, situation.coarse_share);
+    deskew(target_source_, {target_twist_}, compensated_);
+    target_ = distribution(compensated_, situation.coarse_share);
   }
   Search found;
   found.best = {predicted.T_odom_lidar, -1.0};
@@ -135,8 +137,7 @@ double InitialPoseStage::candidate_score(const Situation& situation, const SE3& 
   if (!situation.single) {
     return score(situation.source, {T, twist}, situation.map);
   }
-  deskew(situation.source, {twist}, compensated_);
-  return map_score(evenly_picked(compensated_, kSinglePoints), situation.map, T, config_.score_sigma_m);
+  return map_score(deskew_picked(situation.source, {twist}, kSinglePoints), situation.map, T, config_.score_sigma_m);
 }
 
 bool InitialPoseStage::is_consistent(double score) const {
@@ -151,9 +152,8 @@ std::vector<SE3> InitialPoseStage::restarts(const SE3& centre, const LocalMap& m
   return search_poses(compensated_, map, centre, grid, kSearchSigmaM, kSearchStarts, deadline);
 }
 
-double InitialPoseStage::score(const TimedCloud& source, const MotionState& state, const LocalMap& map) {
-  deskew(source, state.motion(), compensated_);
-  const auto points = evenly_picked(compensated_, static_cast<std::size_t>(config_.score_points));
+double InitialPoseStage::score(const TimedCloud& source, const MotionState& state, const LocalMap& map) const {
+  const auto points = deskew_picked(source, state.motion(), static_cast<std::size_t>(config_.score_points));
   return map_score(points, map, state.T_odom_lidar, config_.score_sigma_m);
 }
 
@@ -175,7 +175,9 @@ void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twi
   if (moving_ && moved.head<3>().norm() < kPoseNoiseRad && moved.tail<3>().norm() < kPoseNoiseM) {
     target_ = std::move(moving_);
   } else {
-    deskew(source, {twist}, target_points_);
+    target_source_.points = source.points;
+    target_source_.offsets_s = source.offsets_s;
+    target_twist_ = twist;
   }
   moving_.reset();
 }
@@ -190,7 +192,7 @@ void InitialPoseStage::reset() {
   usual_score_ = 0.0;
   usual_quality_ = 0.0;
   own_score_ = 0.0;
-  target_points_.clear();
+  target_source_ = {};
   target_.reset();
   moving_.reset();
 }

@@ -64,8 +64,8 @@ class InitialPoseStage {
   /// Chooses the initial pose of a sweep.
   InitialPose choose(const Situation& situation);
 
-  /// Map score of a registered sweep; the cloud becomes the next target.
-  double score(const TimedCloud& source, const MotionState& state, const LocalMap& map);
+  /// Map score of a registered sweep.
+  double score(const TimedCloud& source, const MotionState& state, const LocalMap& map) const;
 
   /// Whether a registered sweep fits so much worse than usual that it may have been taken at another time than its
   /// stamp; see quality_of().
@@ -82,8 +82,8 @@ class InitialPoseStage {
   /// The usual score, or, while it is not known, what the first sweep of the map scores on itself.
   double expected_score() const { return usual_score_ > 0.0 ? usual_score_ : own_score_; }
 
-  /// Keeps the motion-compensated source of a sweep as target of the next coarse registration: the distribution that
-  /// was made of it as a source where `twist` is about the velocity that it was compensated for then.
+  /// Keeps the source of a sweep, to be compensated for `twist`, as target of the next coarse registration; the
+  /// distribution that was made of it in search() where `twist` is about the velocity that it was compensated for then.
   void keep_target(const TimedCloud& source, const Vector6d& twist);
 
   void reset();
@@ -114,7 +114,8 @@ class InitialPoseStage {
   CoarseRegistrationConfig coarse_;
   VoxelSampler sampler_;
   std::vector<Eigen::Vector3f> compensated_;
-  std::vector<Eigen::Vector3f> target_points_;
+  TimedCloud target_source_;
+  Vector6d target_twist_ = Vector6d::Zero();
   // Of the last sweep, once it is needed; of this one, compensated for moving_twist_, when it was needed.
   std::optional<DistributionCloud> target_;
   std::optional<DistributionCloud> moving_;

@@ -53,13 +53,13 @@ void BeamCalibration::sum_up(const BeamSample& sample) {
   in_order_.clear();
   for (std::size_t i = 0; i < observations_.size(); ++i) {
     const Observation& seen = observations_[i];
-    if (!(seen.weight > 0.0)) {
-      continue;
+    const Eigen::Vector3f& p = sample.cloud.points[i];
+    if (!(seen.weight > 0.0) || p.head<2>().isZero(0.0F)) {
+      continue;  // on the axis a point has no azimuth
     }
     Information& beam = beams_[sample.beams[i]];
     beam.sweep += seen.weight * seen.jacobian * seen.jacobian.transpose();
     beam.gradient -= seen.weight * seen.residual_m * seen.jacobian;
-    const Eigen::Vector3f& p = sample.cloud.points[i];
     beam.points += 1.0;
     beam.tangent += (static_cast<double>(p.z() / p.head<2>().norm()) - beam.tangent) / beam.points;
   }

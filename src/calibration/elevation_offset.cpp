@@ -93,7 +93,7 @@ ElevationInformation elevation_information(const TimedCloud& source, const Local
 }
 
 ElevationOffsetEstimator::ElevationOffsetEstimator(const ElevationOffsetConfig& config)
-    : config_(config), applied_rad_(config.enabled ? config.initial_deg * kRadPerDeg : 0.0) {}
+    : config_(config), applied_rad_(config.initial_deg * kRadPerDeg) {}
 
 void ElevationOffsetEstimator::add(const ElevationInformation& sweep) {
   if (!(sweep.information > 0.0)) {

@@ -15,11 +15,14 @@ class SensorCalibration {
   SensorCalibration(const ElevationOffsetConfig& elevation, const BeamCalibrationConfig& beams)
       : elevation_config_(elevation), beams_config_(beams), elevation_(elevation), beams_(beams) {}
 
-  /// Learns from a sweep that was registered to `map` with `sigma_th_m` and `config`, before it goes into the map, and
-  /// moves the map when the applied elevation offset changes. `sound`: the sweep is beyond doubt; of any other only the
-  /// pose derivative is followed.
+  /// Learns from a sweep that was registered to `map` with `config`, weighted with `sigma_th_m`, before it goes into
+  /// the map. `sound`: the sweep is beyond doubt; of any other only the pose derivative is followed.
   void learn(const PreparedSweep& prepared, const IcpResult& icp, double sigma_th_m, const AdaptiveIcpConfig& config,
-             bool sound, LocalMap& map);
+             bool sound, const LocalMap& map);
+
+  /// Moves the map by what learn() changed of the applied elevation offset: after the sweep, whose points still have
+  /// the old one, went in.
+  void move(LocalMap& map);
 
   /// Derivative of the last pose with respect to the elevation offset: LocalMap::insert keeps it with the points.
   const PoseDerivative& pose_by_elevation() const { return pose_by_elevation_; }
@@ -38,6 +41,7 @@ class SensorCalibration {
   ElevationOffsetEstimator elevation_;
   BeamCalibration beams_;
   PoseDerivative pose_by_elevation_;
+  double change_rad_ = 0;  // of the applied elevation offset, by which the map has not been moved
 };
 
 }  // namespace rilo

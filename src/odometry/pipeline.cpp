@@ -53,6 +53,7 @@ void Pipeline::process(const SweepView& sweep, SweepResult& result) {
   const PreparedSweep& prepared = prepare(sweep, result);
   if (prepared.source.points.empty() || repeated_) {
     result.status = OdometryStatus::kEmpty;
+    result.covariance = unknown_velocity_covariance();
     if (map_.sweeps() > 0) {
       lose(prepared, predict(prepared), std::nullopt, result);
     }
@@ -160,6 +161,7 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
       .sigma_th_m = threshold_.sigma_th_m(),
       .usual_sigma_th_m = threshold_.usual_sigma_th_m(),
       .period_s = period_s,
+      .contradicted = contradicted_,
       .deadline = end,
       .first_map_ms = budget_.ms(Work::kInsert, static_cast<double>(map_.first_cloud().size()) + map_points)};
   Registration registration = fine_registration(parts, predicted, init);
@@ -187,7 +189,6 @@ Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& reg
 void Pipeline::accept(const PreparedSweep& prepared, Registration registration, MotionVerdict motion,
                       SweepResult& result) {
   const IcpResult& icp = registration.icp;
-  const double sigma_th_m = threshold_.sigma_th_m();
   Vector6d twist_before = tracker_.trusted().twist;
   if (registration.first) {
     twist_before = registration.first->twist;  // the map began with a guess
@@ -197,10 +198,16 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   }
 
   const bool degenerate = result.status == OdometryStatus::kDegenerate;
-  const Vector6d uneven = uneven_motion(prepared.source, map_.map(), icp, sigma_th_m, config_.icp,
+  const Vector6d uneven = uneven_motion(prepared.source, map_.map(), icp, registration.sigma_th_m, config_.icp,
                                         PoseCovariance::evidence_share(config_.icp), kSampleStride);
-  result.covariance = pose_covariance_.of(icp, degenerate, twist_before,
-                                          prepared.source.timed() ? tracker_.since_trusted_s() : 0.0, uneven);
+  const SweepSpan span = SweepSpan::of(prepared.source);
+  const double since_s = tracker_.since_trusted_s();
+  Vector6d acceleration = Vector6d::Zero();
+  if (since_s > 0.0) {
+    acceleration = (icp.state.twist - twist_before) / since_s;
+  }
+  result.covariance =
+      pose_covariance_.of(icp, degenerate, acceleration, static_cast<double>(span.end_s - span.begin_s), uneven);
   const Eigen::Vector3d step = tracker_.accept(icp, motion, degenerate);
 
   if (map_.sweeps() >= 2) {
@@ -222,7 +229,9 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
                 clock_.total_ms() - times.preprocess_ms - times.initial_pose_ms - times.registration_ms);
   insert(prepared.map_cloud, result,
          [&](const TimedCloud& cloud) { map_.insert(cloud, tracker_.state(), calibration_.pose_by_elevation()); });
+  calibration_.move(map_.map());
   learn_rest(registration, result);
+  contradicted_ = false;
 }
 
 void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,
@@ -233,6 +242,7 @@ void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted,
   if (result.status == OdometryStatus::kEmpty) {
     return;  // nothing contradicts the map
   }
+  contradicted_ = true;
   if (judge_.give_up(established())) {
     begin_map(prepared, predicted, result);
   }
@@ -240,6 +250,7 @@ void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted,
 
 void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result) {
   result.status = OdometryStatus::kInitialising;
+  contradicted_ = false;
   judge_.begin(prepared);
   insert(prepared.map_cloud, result, [&](const TimedCloud& cloud) {
     map_.begin(cloud, state, prepared.scene_range_m, calibration_.pose_by_elevation());
@@ -277,6 +288,7 @@ void Pipeline::reset() {
   map_.clear();
   trajectory_.clear();
   fingerprint_ = {};
+  contradicted_ = false;
   shares_ = {};
   last_step_.setZero();
 }

@@ -1,7 +1,10 @@
 #include "odometry/pose_covariance.hpp"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 
+#include "odometry/motion_prior.hpp"
 #include "odometry/running_mean.hpp"
 
 namespace rilo {
@@ -23,9 +26,12 @@ double PoseCovariance::evidence_share(const AdaptiveIcpConfig& config) {
   return kEvidenceWorth * config.independent_share;
 }
 
-Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6d& before, double sweep_s,
+Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6d& acceleration, double sweep_s,
                             const Vector6d& uneven) {
   Matrix12d information = icp.posterior_information;
+  // No less than is known of a guess: without the prior a direction may not be seen at all.
+  const Vector6d least = unknown_velocity_covariance().diagonal().cwiseInverse();
+  information.diagonal() += (Vector12d() << least, least).finished();
   if (!degenerate) {
     information += (kEvidenceWorth - 1.0) * icp.sweep_information;
   }
@@ -45,11 +51,11 @@ Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6
   }
 
   // The points are compensated for the mean acceleration since the sweep before, which is that of half a sweep ago.
-  const Vector6d change = icp.state.twist - before;
-  const Vector6d missed = icp.state.earlier.lag_s > 0.0 ? Vector6d(0.5 * (change - change_)) : change;
-  change_ = change;
-  squared_change_ += kRunningShare * (missed.cwiseAbs2() - squared_change_);
-  result.diagonal() += kMeanLag * kMeanLag * sweep_s * sweep_s * squared_change_;
+  const bool compensated = icp.state.earlier.lag_s > 0.0;
+  const Vector6d missed = compensated ? Vector6d(0.5 * (acceleration - acceleration_)) : acceleration;
+  acceleration_ = acceleration;
+  squared_acceleration_ += kRunningShare * (missed.cwiseAbs2() - squared_acceleration_);
+  result.diagonal() += std::pow(kMeanLag * sweep_s * sweep_s, 2) * squared_acceleration_;
   uneven_ += kRunningShare * (uneven - uneven_);
   result.diagonal() += kUnevenShare * uneven_;
   return result;

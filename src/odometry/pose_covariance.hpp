@@ -13,10 +13,11 @@ class PoseCovariance {
  public:
   /// Of the pose of `icp`, right perturbation, [rad; m].
   /// @param degenerate a direction is not observed.
-  /// @param before velocity during the sweep before [rad/s; m/s].
+  /// @param acceleration from the sweep before [rad/s²; m/s²].
   /// @param sweep_s how long the points were measured; 0 for points that were motion-compensated before.
   /// @param uneven uneven_motion() of the sweep [rad²; m²].
-  Matrix6d of(const IcpResult& icp, bool degenerate, const Vector6d& before, double sweep_s, const Vector6d& uneven);
+  Matrix6d of(const IcpResult& icp, bool degenerate, const Vector6d& acceleration, double sweep_s,
+              const Vector6d& uneven);
 
   /// Share of the residuals that count as independent where a direction is observed.
   static double evidence_share(const AdaptiveIcpConfig& config);
@@ -24,10 +25,9 @@ class PoseCovariance {
   void reset() { *this = {}; }
 
  private:
-  Vector6d change_ = Vector6d::Zero();  // of the velocity to the last sweep
-  // Means of the last sweeps: change of the velocity that points are not compensated for, and scatter of motion within
-  // a sweep.
-  Vector6d squared_change_ = Vector6d::Zero();
+  Vector6d acceleration_ = Vector6d::Zero();  // to the last sweep
+  // Means of the last sweeps: acceleration that points are not compensated for, and scatter of motion within a sweep.
+  Vector6d squared_acceleration_ = Vector6d::Zero();
   Vector6d uneven_ = Vector6d::Zero();
 };
 

@@ -27,6 +27,7 @@ Registration PoseSearch::to_map(const MotionState& start, const MotionPrior& pri
   Registration found;
   found.icp = adaptive_icp(parts_.prepared.source, parts_.map.map(), start, prior, sigma_th_m, icp, deadline);
   found.T_init = start.T_odom_lidar;
+  found.sigma_th_m = sigma_th_m;
   rate(found, parts_.map.map());
   return found;
 }

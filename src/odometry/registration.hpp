@@ -24,6 +24,7 @@ struct Registration {
   IcpResult icp;
   SE3 T_init = SE3::Identity();     ///< initial pose of the registration that was kept
   std::optional<FirstSweep> first;  ///< second sweep of a map
+  double sigma_th_m = 0;            ///< the registration was weighted with
   double score = 0;                 ///< map score at the registered pose
   double quality = 0;               ///< see quality_of()
   double rival_quality = 0;         ///< second sweep: the best that settled elsewhere
@@ -43,6 +44,7 @@ struct RegistrationParts {
   double sigma_th_m = 0;
   double usual_sigma_th_m = 0;  ///< the same without the growth after failures
   double period_s = 0;          ///< usual time between sweeps
+  bool contradicted = false;    ///< a sweep since the trusted one did not fit; false: they were empty
   Deadline deadline = {};       ///< of the registration
   double first_map_ms = 0;      ///< how long it takes to put the first sweep into a map, and this one
 };

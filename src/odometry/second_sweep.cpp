@@ -97,6 +97,7 @@ Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior&
     const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
     found.icp = adaptive_icp(last ? parts_.prepared.source : source_, or_present(found.first->map), found.icp.state,
                              prior, sigma_m, search_.icp(), round_end);
+    found.sigma_th_m = sigma_m;
     iterations += found.icp.iterations;
     if (last && round + 1 < kRounds) {
       found.icp.termination = IcpTermination::kTimeLimit;

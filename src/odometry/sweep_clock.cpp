@@ -31,7 +31,7 @@ SweepTime SweepClock::advance(std::int64_t given_ns, std::int64_t to_middle_ns) 
     stamp_ns_ = given_ns_ = believed_ns_ = std::min(given_ns, kLatestNs);
     return {stamp_ns_, 0, 0, true};
   }
-  const std::int64_t from_believed = difference(given_ns, believed_ns_) - since_ns_;
+  const std::int64_t from_believed = difference(difference(given_ns, believed_ns_), since_ns_);
   const std::int64_t from_last = difference(given_ns, given_ns_);
   // Until a stamp is in doubt both are the same.
   const bool goes_on = believable(from_believed);

@@ -149,7 +149,7 @@ Vector12d prior_error(const MotionPrior& prior, const MotionState& state);
 MotionState perturbed(const MotionState& state, const Vector12d& delta);
 
 /// Aligns `source` with `map` from `initial`, weights from `sigma_th_m`. After the deadline no iteration begins, but
-/// one of all points is made in any case.
+/// one of all points is made in any case, unless config.max_iterations is 1.
 IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const MotionState& initial,
                        const MotionPrior& prior, double sigma_th_m, const AdaptiveIcpConfig& config,
                        const Deadline& deadline = {});

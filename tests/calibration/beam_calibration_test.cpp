@@ -103,6 +103,22 @@ TEST(BeamCalibration, NothingSeenNothingLearnt) {
   EXPECT_TRUE(calibration.angles().of(3).isZero());
 }
 
+TEST(BeamCalibration, APointOnTheAxisHasNoBeam) {
+  Room scene = room();
+  BeamCalibration calibration({true, 0.05});
+  BeamSample sample;
+  for (const Eigen::Vector3f& p : scene.points) {
+    sample.cloud.points.push_back(p);
+    sample.beams.push_back(beam_of(p, 2.0));
+  }
+  sample.cloud.points.front() = {0.0F, 0.0F, 1.65F};  // on the ceiling
+  calibration.learn(sample, scene.map, scene.icp, 0.3, AdaptiveIcpConfig{});
+  EXPECT_TRUE(calibration.rms_rad().allFinite());
+  for (std::size_t beam = 0; beam < 1000; ++beam) {
+    EXPECT_TRUE(calibration.angles().of(static_cast<Beam>(beam)).allFinite());
+  }
+}
+
 /// Drift of a short drive with an HDL-64 whose beams are off by `sigma_deg`, and what was corrected.
 SweepStats drive(double sigma_deg, bool enabled, double* corrected_share = nullptr) {
   DriveConfig config;

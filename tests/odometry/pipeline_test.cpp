@@ -115,7 +115,9 @@ TEST(Pipeline, ResetStartsAnew) {
 
 TEST(Pipeline, EmptyAndNanSweepsArePassedOver) {
   Odometry odometry({});
-  EXPECT_EQ(odometry.register_sweep({}).status, OdometryStatus::kEmpty);
+  const SweepResult nothing = odometry.register_sweep({});
+  EXPECT_EQ(nothing.status, OdometryStatus::kEmpty);
+  EXPECT_GE(nothing.covariance.diagonal().minCoeff(), 1.0);  // rad², m²: that of a guess
   odometry.reset();
   for (int i = 0; i < 12; ++i) {
     Sweep sweep = room_sweep(along_x(0.05 * i), 100'000'000LL * i);

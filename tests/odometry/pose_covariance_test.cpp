@@ -1,6 +1,7 @@
 // The covariance of a pose by hand.
 #include "odometry/pose_covariance.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 namespace rilo {
@@ -16,28 +17,40 @@ IcpResult with_information(double sweep, double prior) {
 TEST(PoseCovarianceByHand, TheSweepCountsTwentyTimesExceptWhereADirectionIsHidden) {
   const IcpResult icp = with_information(100.0, 50.0);
   PoseCovariance covariance;
-  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.0, Vector6d::Zero())(3, 3), 1.0 / 2050.0, 1e-12);
-  EXPECT_NEAR(covariance.of(icp, true, Vector6d::Zero(), 0.0, Vector6d::Zero())(3, 3), 1.0 / 150.0, 1e-12);
+  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.0, Vector6d::Zero())(3, 3), 1.0 / 2050.0, 1e-8);
+  EXPECT_NEAR(covariance.of(icp, true, Vector6d::Zero(), 0.0, Vector6d::Zero())(3, 3), 1.0 / 150.0, 1e-6);
 }
 
+// 3 m/s in a sweep of 0.1 s.
+const Vector6d kAcceleration = 30.0 * Vector6d::Unit(3);
+
 TEST(PoseCovarianceByHand, AChangeOfVelocityDuringTheSweepCounts) {
-  IcpResult icp = with_information(1e12, 0.0);
-  icp.state.twist[3] = 3.0;
+  const IcpResult icp = with_information(1e12, 0.0);
   PoseCovariance covariance;
   // A fifth of (3 m/s)² is learnt at once; 0.1 s / 24 of that velocity is the mean lag.
   const double expected = 0.2 * 9.0 * 0.01 / (24.0 * 24.0);
-  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.1, Vector6d::Zero())(3, 3), expected, 1e-9);
+  EXPECT_NEAR(covariance.of(icp, false, kAcceleration, 0.1, Vector6d::Zero())(3, 3), expected, 1e-9);
 }
 
 TEST(PoseCovarianceByHand, OfAChangeThatPointsAreCompensatedForHalfItsOwnChangeCounts) {
   IcpResult icp = with_information(1e12, 0.0);
-  icp.state.twist[3] = 3.0;
   icp.state.earlier.lag_s = 0.1;
   PoseCovariance covariance;
   const double expected = 0.2 * 1.5 * 1.5 * 0.01 / (24.0 * 24.0);
-  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.1, Vector6d::Zero())(3, 3), expected, 1e-9);
+  EXPECT_NEAR(covariance.of(icp, false, kAcceleration, 0.1, Vector6d::Zero())(3, 3), expected, 1e-9);
   // As much again: a steady acceleration, and what was learnt fades.
-  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.1, Vector6d::Zero())(3, 3), 0.8 * expected, 1e-9);
+  EXPECT_NEAR(covariance.of(icp, false, kAcceleration, 0.1, Vector6d::Zero())(3, 3), 0.8 * expected, 1e-9);
+}
+
+// With the prior off, nothing may be known of a direction.
+TEST(PoseCovarianceByHand, OfADirectionThatIsNotSeenAGuessIsKnown) {
+  IcpResult icp;
+  icp.sweep_information = Matrix12d::Zero();
+  icp.sweep_information.diagonal() << 1e6, 1e6, 1e6, 0.0, 1e6, 1e6, 0, 0, 0, 0, 0, 0;
+  icp.posterior_information = icp.sweep_information;
+  const Matrix6d C = PoseCovariance().of(icp, true, Vector6d::Zero(), 0.1, Vector6d::Zero());
+  EXPECT_GT(C(3, 3), 1.0);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(C).eigenvalues()[0], 0.0);
 }
 
 TEST(PoseCovarianceByHand, WhatARegistrationCutShortHadLeftToMoveCounts) {
@@ -55,8 +68,8 @@ TEST(PoseCovarianceByHand, IsInTheSensorsOwnAxes) {
   icp.posterior_information(3, 3) = 100.0;  // x of the odometry frame is known well
   icp.state.T_odom_lidar.linear() = so3_exp(Eigen::Vector3d(0.0, 0.0, 1.57079632679489662));
   const Matrix6d C = PoseCovariance().of(icp, true, Vector6d::Zero(), 0.0, Vector6d::Zero());
-  EXPECT_NEAR(C(3, 3), 1.0, 1e-9);
-  EXPECT_NEAR(C(4, 4), 0.01, 1e-9);
+  EXPECT_NEAR(C(3, 3), 1.0, 3e-3);
+  EXPECT_NEAR(C(4, 4), 0.01, 1e-6);
 }
 
 }  // namespace

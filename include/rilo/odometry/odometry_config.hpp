@@ -72,7 +72,7 @@ struct MotionBoundsConfig {
 
 /// Time budget per sweep.
 struct TimeBudgetConfig {
-  double sweep_ms = 0.0;  ///< from motion compensation to map update; 0: no limit
+  double sweep_ms = 0.0;  ///< from the sweep to its pose, map included; 0: no limit
 };
 
 /// Complete configuration of the odometry. The defaults are meant for every sensor.

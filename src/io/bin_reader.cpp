@@ -48,54 +48,9 @@ std::vector<Field> parse_bin_fields(const std::string& text) {
 
 namespace {
 
-// Numbers of beams in the fifth column: a size alone may fit by chance, where bytes are missing or too many.
-bool has_rings_behind(const std::filesystem::path& file) {
-  constexpr std::size_t kRecords = 1000;
-  constexpr float kMostBeams = 1024;
-  constexpr std::size_t kColumns = 5;
-  try {
-    const FileBytes bytes = read_file(file, kRecords * kColumns * sizeof(float));
-    for (std::size_t at = 0; at + kColumns * sizeof(float) <= bytes.size; at += kColumns * sizeof(float)) {
-      const auto ring = load_bytes<float>(bytes.view(), at + 4 * sizeof(float));
-      if (!(ring >= 0 && ring < kMostBeams && ring == std::floor(ring))) return false;
-    }
-  } catch (const IoError&) {
-    return false;  // reported when it is reached
-  }
-  return true;
-}
-
-}  // namespace
-
-std::string guess_bin_fields(const std::vector<std::filesystem::path>& files) {
-  constexpr std::size_t kLookedAt = 50;
-  const std::size_t step = std::max<std::size_t>(1, files.size() / kLookedAt);
-  bool four = true;
-  bool five = true;
-  bool seen = false;
-  bool named = !files.empty();
-  for (std::size_t i = 0; i < files.size(); i += step) {
-    std::error_code error;
-    const auto size = std::filesystem::file_size(files[i], error);
-    if (error || size == 0) continue;
-    seen = true;
-    five = five && size % 20 == 0;
-    four = four && size % 16 == 0;
-    named = named && lower_case(files[i].filename().string()).ends_with(".pcd.bin");
-    if (five && !four && !named) five = has_rings_behind(files[i]);
-  }
-  return seen && five && (!four || named) ? "x,y,z,intensity,ring" : "x,y,z,intensity";
-}
-
-namespace {
-
-std::string likely_columns(std::size_t bytes, std::size_t columns) {
-  std::string likely;
-  for (std::size_t n = 3; n <= 8; ++n) {
-    if (n == columns || bytes % (n * sizeof(float)) != 0) continue;
-    likely += (likely.empty() ? " (the size would fit records of " : ", ") + std::to_string(n);
-  }
-  return likely.empty() ? "" : likely + " columns)";
+std::string likely_columns(std::size_t bytes) {
+  const std::string fitting = fitting_columns(bytes);
+  return fitting.empty() ? "" : " (the size would fit records of " + fitting + " columns)";
 }
 
 void check_size(const FileBytes& bytes, const std::string& fields, std::size_t columns) {
@@ -106,7 +61,7 @@ void check_size(const FileBytes& bytes, const std::string& fields, std::size_t c
                  std::to_string(bytes.size) + " bytes, which is " + std::to_string(bytes.size / record) +
                      " records and " + std::to_string(rest) + " bytes",
                  "records of " + std::to_string(record) + " bytes (" + fields + ", float32 each)",
-                 "The file is cut off, or bin_fields does not fit it" + likely_columns(bytes.size, columns)});
+                 "The file is cut off, or bin_fields does not fit it" + likely_columns(bytes.size)});
 }
 
 // A wrong column count or another number format shows in absurd coordinates.

@@ -25,9 +25,13 @@ struct Field {
 /// sense.
 std::vector<Field> parse_bin_fields(const std::string& text);
 
-/// For bin_fields "auto": x,y,z,intensity, or with a ring behind when the sizes of the files fit nothing else and the
-/// fifth column has numbers of beams, or when they are named as nuScenes does (NAME.pcd.bin).
+/// For bin_fields "auto": x,y,z,intensity, or with a ring behind when the sizes of the files, or the numbers in them,
+/// fit nothing else and the fifth column has numbers of beams, or when they are named as nuScenes does (NAME.pcd.bin).
+/// @throws IoError when the sizes fit x,y,z,intensity, but the numbers are those of records of another length.
 std::string guess_bin_fields(const std::vector<std::filesystem::path>& files);
+
+/// "3, 5": how many columns of float32 the records of a file of that size may have.
+std::string fitting_columns(std::size_t bytes);
 
 /// Which field is what; indices into the list of fields.
 struct FieldRoles {

@@ -23,7 +23,8 @@ PointTimeHints hints_of(const ScanListing& listing, const SourceOptions& options
 }
 
 SourceOptions with_bin_fields(const ScanListing& listing, SourceOptions options) {
-  if (options.bin_fields == "auto") options.bin_fields = guess_bin_fields(listing.files);
+  if (options.bin_fields == "auto" && listing.info.format == "bin")
+    options.bin_fields = guess_bin_fields(listing.files);
   return options;
 }
 

@@ -52,6 +52,7 @@ ScanListing list_kitti_raw(const fs::path& folder, const SourceOptions& options)
   ScanListing listing;
   start_listing(listing, "kitti raw", folder, find_sweep_files(points / "data"));
   const fs::path stamp_file = points / "timestamps.txt";
+  listing.stamp_file = stamp_file;
   set_stamps(listing,
              path_exists(stamp_file) ? stamps_of_numbers(stamp_file, listing.files) : std::vector<std::int64_t>{},
              options);

@@ -10,6 +10,7 @@
 #include "io/ply_header.hpp"
 #include "io/scan_listing.hpp"
 #include "io/sweep_timing.hpp"
+#include "io/time_field.hpp"
 #include "rilo/io/cloud_reader.hpp"
 
 namespace rilo::detail {
@@ -90,7 +91,9 @@ class FileSource final : public ScanSource {
         options_(with_bin_fields(listing_, options)),
         timing_(options, hints_of(listing_, options), listing_.info.period_s) {
     note_unused_topic(options, listing_.info);
-    if (options.point_times == PointTimes::kAuto) timing_.promise(promised_times(listing_, options_));
+    if (options.point_times != PointTimes::kAuto) return;
+    const auto promised = promised_times(listing_, options_);
+    timing_.promise(promised, promised ? first_time_ends() : std::vector<RawTimes>{});
   }
 
   std::optional<Sweep> next() override {
@@ -126,6 +129,7 @@ class FileSource final : public ScanSource {
           info.warnings.begin(),
           fmt::format("no timestamps found; assuming {:g} Hz (change with --rate)", options_.assumed_rate_hz));
     }
+    for (std::string& warning : timing_.warnings()) info.warnings.push_back(std::move(warning));
     add_bad_sweep_count(info);
     return info;
   }
@@ -135,6 +139,24 @@ class FileSource final : public ScanSource {
     if (listing_.info.format == "bin") return read_bin(file, options_.bin_fields);
     if (listing_.info.format == "pcd") return read_pcd(file, options_.time_field);
     return read_ply(file, options_.time_field);
+  }
+
+  // Of the first three sweeps with times that differ: the steps between these say whether they count from an epoch.
+  std::vector<RawTimes> first_time_ends() const {
+    constexpr std::size_t kWanted = 3;
+    constexpr std::size_t kLookedAt = 12;
+    std::vector<RawTimes> ends;
+    if (!listing_.fraction_files.empty() || listing_.column_points > 0) return ends;  // known
+    std::size_t telling = 0;
+    for (std::size_t i = 0; i < std::min(kLookedAt, listing_.files.size()) && telling < kWanted; ++i) {
+      try {
+        const RawCloud cloud = read_cloud(listing_.files[i]);
+        if (cloud.times && add_time_ends(*cloud.times, cloud.points, ends)) ++telling;
+      } catch (const IoError&) {
+        // Reported when it is reached.
+      }
+    }
+    return ends;
   }
 
   Sweep load(std::size_t index) {

@@ -1,9 +1,7 @@
 #include "rilo/io/point_times.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -11,12 +9,13 @@
 #include "io/measured_point.hpp"
 #include "io/stamp_difference.hpp"
 #include "io/text.hpp"
-#include "rilo/io/io_error.hpp"
+#include "io/time_field.hpp"
 
 namespace rilo {
 namespace {
 
 using detail::is_measured;  // the time of another point means nothing
+using detail::TimeField;
 
 // Without a known period, a sweep lasts between these (s). The range covers less than a factor of 1000, so that at most
 // one of s, ms, µs and ns fits; times that start again in every packet (1.3 ms) fit none.
@@ -29,6 +28,10 @@ constexpr double kMostOfPeriod = 1.6;
 constexpr double kFarthestFromStamp = 2.5;
 // A fraction of the period may overshoot by rounding.
 constexpr double kFractionSlack = 0.01;
+// Half of the period, without the ends of the times that the bulk lacks.
+constexpr double kLeastOfFractions = 0.48;
+// Farther than this from most of the others, in periods, a point is not of the same sweep, which holds up to 450°.
+constexpr double kReach = 1.25;
 
 double seconds_per(PointTimeUnit unit, double period_s) {
   switch (unit) {
@@ -48,60 +51,6 @@ double seconds_per(PointTimeUnit unit, double period_s) {
 }
 
 std::string number(double value) { return fmt::format("{:.10g}", value); }
-
-// One sweep's field and what can be said about it.
-class TimeField {
- public:
-  TimeField(const RawTimes& raw, const std::filesystem::path& file, const Sweep& sweep)
-      : raw_(raw), file_(file), floating_(is_floating(raw.type)) {
-    for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-      if (!is_measured(sweep.points[i]) || !std::isfinite(value(i))) continue;
-      first_ = count_ == 0 || less(i, first_) ? i : first_;
-      last_ = count_ == 0 || less(last_, i) ? i : last_;
-      ++count_;
-    }
-  }
-
-  bool empty() const { return count_ == 0; }
-  double value(std::size_t i) const { return floating_ ? raw_.floats[i] : static_cast<double>(raw_.integers[i]); }
-  /// Exact for integers, however far they are from zero.
-  double since_first(std::size_t i) const {
-    if (floating_) return raw_.floats[i] - raw_.floats[first_];
-    return difference(raw_.integers[i], raw_.integers[first_]);
-  }
-  double least() const { return value(first_); }
-  double most() const { return value(last_); }
-  double span() const { return since_first(last_); }
-  double farthest() const { return std::max(std::abs(least()), std::abs(most())); }
-  std::size_t first() const { return first_; }
-  const RawTimes& raw() const { return raw_; }
-  std::string name() const { return raw_.field + " (" + std::string(to_string(raw_.type)) + ")"; }
-
-  std::string numbers() const {
-    return "point times in field " + name() + " from " + number(least()) + " to " + number(most()) + ", a span of " +
-           number(span());
-  }
-  [[noreturn]] void reject(const std::string& why, const std::string& remedy) const {
-    throw IoError({file_, "", numbers(), why, remedy});
-  }
-
- private:
-  bool less(std::size_t a, std::size_t b) const {
-    return floating_ ? raw_.floats[a] < raw_.floats[b] : raw_.integers[a] < raw_.integers[b];
-  }
-  static double difference(std::int64_t a, std::int64_t b) {
-    std::int64_t exact = 0;
-    if (!__builtin_sub_overflow(a, b, &exact)) return static_cast<double>(exact);
-    return static_cast<double>(a) - static_cast<double>(b);
-  }
-
-  const RawTimes& raw_;
-  const std::filesystem::path& file_;
-  bool floating_;
-  std::size_t count_ = 0;
-  std::size_t first_ = 0;
-  std::size_t last_ = 0;
-};
 
 constexpr const char* kSetUnit =
     "Set point_time_unit to s, ms, us, ns or fraction, or point_times to none to go without";
@@ -123,46 +72,83 @@ bool is_nanoseconds_by_name(const RawTimes& raw) {
 
 bool looks_like_fraction(const TimeField& field) {
   return is_floating(field.raw().type) && field.least() >= -kFractionSlack && field.most() <= 1 + kFractionSlack &&
-         field.span() > 0.5;
+         field.span() > kLeastOfFractions;
 }
 
-PointTimeUnit infer_unit(const TimeField& field, const std::optional<double>& period_s) {
-  const double shortest = period_s ? kLeastOfPeriod * *period_s : kShortestSweep;
-  const double longest = period_s ? kMostOfPeriod * *period_s : kLongestSweep;
-  std::optional<PointTimeUnit> fitting;
+struct SweepLength {
+  double shortest_s;
+  double longest_s;
+
+  explicit SweepLength(const std::optional<double>& period_s)
+      : shortest_s(period_s ? kLeastOfPeriod * *period_s : kShortestSweep),
+        longest_s(period_s ? kMostOfPeriod * *period_s : kLongestSweep) {}
+
+  bool holds(double span_s) const { return span_s >= shortest_s && span_s <= longest_s; }
+  std::string text() const { return "a sweep of " + number(shortest_s) + " to " + number(longest_s) + " s"; }
+};
+
+std::optional<PointTimeUnit> fitting_unit(const TimeField& field, const SweepLength& length) {
   for (const auto unit : {PointTimeUnit::kSeconds, PointTimeUnit::kMilliseconds, PointTimeUnit::kMicroseconds,
                           PointTimeUnit::kNanoseconds}) {
-    const double span_s = field.span() * seconds_per(unit, 1);
     // Whole seconds tell no points apart.
     if (unit == PointTimeUnit::kSeconds && !is_floating(field.raw().type)) continue;
-    if (span_s >= shortest && span_s <= longest) fitting = unit;
+    if (length.holds(field.span() * seconds_per(unit, 1))) return unit;
   }
-  const std::string range = number(shortest) + " to " + number(longest) + " s";
+  return std::nullopt;
+}
+
+// `field`: the bulk of the times, as below.
+PointTimeUnit infer_unit(const TimeField& field, const std::optional<double>& period_s) {
+  const SweepLength length(period_s);
+  const std::optional<PointTimeUnit> fitting = fitting_unit(field, length);
   if (looks_like_fraction(field)) {
     if (!fitting && period_s) return PointTimeUnit::kFraction;
     field.reject("either seconds or fractions of the sweep; both are possible", kSetUnit);
   }
   if (is_nanoseconds_by_name(field.raw())) {
     if (fitting && *fitting != PointTimeUnit::kNanoseconds) {
-      field.reject("nanoseconds by the field's name, but the span fits a sweep of " + range + " only in " +
+      field.reject("nanoseconds by the field's name, but the span fits " + length.text() + " only in " +
                        std::string(to_string(*fitting)),
                    kSetUnit);
     }
-    if (field.span() * 1e-9 <= longest) return PointTimeUnit::kNanoseconds;
+    if (field.span() * 1e-9 <= length.longest_s) return PointTimeUnit::kNanoseconds;
   }
-  if (!fitting) field.reject("a sweep of " + range + " in s, ms, us or ns", kSetUnit);
+  if (!fitting) field.reject(length.text() + " in s, ms, us or ns", kSetUnit);
   return *fitting;
+}
+
+// A unit that is told is taken unless another one is right.
+void check_told_unit(const TimeField& field, PointTimeUnit told, const std::optional<double>& period_s) {
+  const SweepLength length(period_s);
+  if (told == PointTimeUnit::kFraction || length.holds(field.span() * seconds_per(told, 1))) return;
+  std::optional<PointTimeUnit> fitting = fitting_unit(field, length);
+  if (!fitting && period_s && looks_like_fraction(field)) fitting = PointTimeUnit::kFraction;
+  if (!fitting) return;
+  field.reject("in " + std::string(to_string(told)) + ", as point_time_unit says, " + length.text() +
+                   "; the span is one in " + std::string(to_string(*fitting)),
+               "Set point_time_unit to " + std::string(to_string(*fitting)) + ", or leave it out");
+}
+
+PointTimeUnit unit_of(const TimeField& bulk, const PointTimeHints& hints) {
+  if (hints.unit == PointTimeUnit::kInfer) return infer_unit(bulk, hints.period_s);
+  if (!hints.unit_certain) check_told_unit(bulk, hints.unit, hints.period_s);
+  return hints.unit;
+}
+
+[[noreturn]] void reject_wrapping(const TimeField& field) {
+  field.reject(
+      "less than " + number(kFarthestFromStamp) + " s from the sweep's stamp, since 32 bits of ns wrap after 4.3 s",
+      "Set point_time_reference to stamp or epoch, or point_times to none");
+}
+
+bool wraps(const TimeField& field, PointTimeUnit unit) {
+  return unit == PointTimeUnit::kNanoseconds && size_of(field.raw().type) == 4;
 }
 
 PointTimeReference infer_reference(const TimeField& field, PointTimeUnit unit, double scale) {
   const double farthest_s = field.farthest() * scale;
-  if (unit == PointTimeUnit::kFraction || farthest_s <= kFarthestFromStamp) return PointTimeReference::kStamp;
-  const bool wraps = unit == PointTimeUnit::kNanoseconds && size_of(field.raw().type) == 4;
-  if (wraps) {
-    field.reject(
-        "less than " + number(kFarthestFromStamp) + " s from the sweep's stamp, since 32 bits of ns wrap after 4.3 s",
-        "Set point_time_reference to stamp or epoch, or point_times to none");
-  }
+  if (farthest_s <= kFarthestFromStamp) return PointTimeReference::kStamp;
+  if (wraps(field, unit)) reject_wrapping(field);
   if (field.least() * scale < kFarthestFromStamp) {
     field.reject("times around 0 (from the stamp) or all far from it (from an epoch)",
                  "Set point_time_reference to stamp or epoch, or point_times to none");
@@ -205,49 +191,96 @@ void check_against(const TimeField& field, const PointTimeConvention& convention
   }
 }
 
-void fill(const TimeField& field, bool from_first, double scale, Sweep& sweep) {
+// Returns how many finite times are outside of `field`.
+std::size_t fill(const TimeField& field, bool from_first, double scale, Sweep& sweep) {
+  std::size_t outside = 0;
   sweep.times_s.assign(sweep.points.size(), 0.0F);
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     if (!is_measured(sweep.points[i])) continue;
-    const double time = from_first ? field.since_first(i) : field.value(i);
-    if (std::isfinite(time)) {
-      sweep.times_s[i] = static_cast<float>(time * scale);
+    if (field.holds(i)) {
+      sweep.times_s[i] = static_cast<float>((from_first ? field.since_first(i) : field.value(i)) * scale);
     } else {
+      outside += std::isfinite(field.value(i)) ? 1 : 0;
       sweep.points[i].setConstant(std::numeric_limits<float>::quiet_NaN());
     }
   }
+  return outside;
 }
 
 }  // namespace
+
+void PointTimeDecoder::learn(const std::vector<RawTimes>& ends) {
+  const std::filesystem::path none;
+  const std::vector<Eigen::Vector3f> two(2, Eigen::Vector3f::Ones());
+  double widest = 0;
+  double first_start = 0;
+  double last_start = 0;
+  std::size_t starts = 0;
+  for (const RawTimes& raw : ends) {
+    const TimeField field(raw, none, two);
+    if (field.constant()) continue;
+    last_start = field.least();
+    if (starts++ == 0) first_start = last_start;
+    if (field.span() <= widest) continue;
+    try {
+      learnt_unit_ = unit_of(field, hints_);
+      widest = field.span();
+    } catch (const IoError&) {
+      // This sweep does not show it. When none does, decode() says why.
+    }
+  }
+  // Half: sweeps in parts count from the start of the whole one, again and again.
+  advances_ = learnt_unit_ && starts > 2 && last_start - first_start > 0.5 * widest * static_cast<double>(starts - 1);
+}
+
+PointTimeConvention PointTimeDecoder::convention_of(const RawTimes& raw, const std::filesystem::path& file,
+                                                    const Sweep& sweep) const {
+  const TimeField bulk = TimeField(raw, file, sweep.points).bulk();
+  check_resolution(bulk);
+  PointTimeConvention convention{learnt_unit_ ? *learnt_unit_ : unit_of(bulk, hints_), hints_.reference};
+  if (convention.unit == PointTimeUnit::kFraction) {
+    convention.reference = PointTimeReference::kStamp;
+  } else if (convention.reference == PointTimeReference::kInfer && advances_) {
+    if (wraps(bulk, convention.unit)) reject_wrapping(bulk);
+    convention.reference = PointTimeReference::kEpoch;
+  } else if (convention.reference == PointTimeReference::kInfer) {
+    convention.reference = infer_reference(bulk, convention.unit, seconds_per(convention.unit, 1));
+  }
+  return convention;
+}
 
 void PointTimeDecoder::decode(const RawTimes& raw, const std::filesystem::path& file, Sweep& sweep) {
   if (raw.size() != sweep.points.size()) {
     throw std::invalid_argument("PointTimeDecoder: as many times as points are needed");
   }
-  const TimeField field(raw, file, sweep);
-  const double period_s = hints_.period_s.value_or(hints_.assumed_period_s);
-  const auto scale_of = [&](PointTimeUnit unit) { return seconds_per(unit, period_s); };
-  if (field.empty()) {
+  const TimeField all(raw, file, sweep.points);
+  if (all.empty()) {
     // Nothing measured, or nothing timed: with zero scale, measured points still become NaN.
-    fill(field, false, 0, sweep);
+    fill(all, false, 0, sweep);
     return;
   }
-  PointTimeConvention convention = convention_.value_or(PointTimeConvention{hints_.unit, hints_.reference});
-  const bool all_zero = field.span() == 0 && field.least() == 0;
-  if (!convention_ && all_zero && hints_.unit == PointTimeUnit::kInfer) {
-    fill(field, false, 0, sweep);
+  const bool all_zero = all.constant() && all.least() == 0;
+  const bool undecided = !convention_ && hints_.unit == PointTimeUnit::kInfer;
+  if (all_zero && (undecided || (convention_ && convention_->reference == PointTimeReference::kEpoch))) {
+    fill(all, false, 0, sweep);
     return;
   }
+  const PointTimeConvention convention = convention_ ? *convention_ : convention_of(raw, file, sweep);
+  const double period_s = hints_.period_s.value_or(hints_.assumed_period_s);
+  const double scale = seconds_per(convention.unit, period_s);
+  const TimeField field = convention.unit == PointTimeUnit::kFraction ? all.between(-kFractionSlack, 1 + kFractionSlack)
+                                                                      : all.within(kReach * period_s / scale);
   check_resolution(field);
-  if (convention.unit == PointTimeUnit::kInfer) convention.unit = infer_unit(field, hints_.period_s);
-  const double scale = scale_of(convention.unit);
-  if (convention.reference == PointTimeReference::kInfer || convention.unit == PointTimeUnit::kFraction) {
-    convention.reference = infer_reference(field, convention.unit, scale);
-  }
   check_against(field, convention, scale);
   const bool from_epoch = convention.reference == PointTimeReference::kEpoch;
   if (from_epoch) sweep.stamp_ns = epoch_stamp_ns(field, scale);
-  fill(field, from_epoch, scale, sweep);
+  const std::size_t outside = fill(field, from_epoch, scale, sweep);
+  if (outside > 0 && warning_.empty()) {
+    warning_ = fmt::format(
+        "{}: {} of {} points have times too far from those of the others to be of the same sweep: they are not used, "
+        "nor are any in later sweeps",
+        file.string(), outside, sweep.points.size());
+  }
   convention_ = convention;
   description_ = describe(field, convention);
 }
@@ -256,16 +289,6 @@ std::int64_t pose_stamp_ns(std::int64_t middle_ns, std::int64_t sweep_stamp_ns) 
   constexpr std::int64_t kMicrosecond = 1000;
   const std::int64_t apart = detail::stamp_difference(middle_ns, sweep_stamp_ns);
   return apart >= -kMicrosecond && apart <= kMicrosecond ? sweep_stamp_ns : middle_ns;
-}
-
-std::vector<float> azimuth_times(const std::vector<Eigen::Vector3f>& points, double period_s, SpinDirection direction) {
-  const double per_radian = (direction == SpinDirection::kClockwise ? -period_s : period_s) / (2 * std::numbers::pi);
-  std::vector<float> times(points.size(), 0.0F);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double azimuth = std::atan2(static_cast<double>(points[i].y()), static_cast<double>(points[i].x()));
-    if (std::isfinite(azimuth)) times[i] = static_cast<float>(azimuth * per_radian);
-  }
-  return times;
 }
 
 }  // namespace rilo

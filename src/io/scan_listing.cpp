@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "geometry/median.hpp"
@@ -73,6 +74,7 @@ std::vector<std::int64_t> find_stamps(const fs::path& folder, bool look_above, S
   if (path_exists(stamp_file)) {
     std::vector<std::int64_t> stamps = read_stamps(stamp_file);
     check_stamp_count(stamp_file, stamps.size(), listing.files.size());
+    listing.stamp_file = stamp_file;
     return stamps;
   }
   if (auto stamps = stamps_from_names(listing.files); !stamps.empty()) return stamps;
@@ -82,7 +84,10 @@ std::vector<std::int64_t> find_stamps(const fs::path& folder, bool look_above, S
   if (look_above && !error) candidates.insert(candidates.end(), {above / "times.txt", above / "timestamps.txt"});
   for (const fs::path& candidate : candidates) {
     if (!path_exists(candidate)) continue;
-    if (auto stamps = stamps_that_fit(candidate, listing); !stamps.empty()) return stamps;
+    auto stamps = stamps_that_fit(candidate, listing);
+    if (stamps.empty()) continue;
+    listing.stamp_file = candidate;
+    return stamps;
   }
   return {};
 }
@@ -116,6 +121,17 @@ std::optional<double> mean_period_s(const std::vector<std::int64_t>& stamps) {
   return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
 }
 
+void note_odd_period(const std::string& of, SourceInfo& info) {
+  // 100 Hz and more are parts of a sweep, 1 Hz are sweeps that were thinned out: both are left a factor of two.
+  constexpr double kShortest = 0.005;
+  constexpr double kLongest = 2;
+  if (info.period_s >= kShortest && info.period_s <= kLongest) return;
+  info.warnings.push_back(
+      fmt::format("the stamps of {} say that there is a sweep every {:g} s: they seem to be in another unit than "
+                  "seconds; correct them, or take them away to assume a rate (--rate)",
+                  of, info.period_s));
+}
+
 void note_bad_sweep(const IoError& error, SourceInfo& info) {
   constexpr std::size_t kMostMessages = 20;
   if (info.bad_sweeps++ < kMostMessages) info.warnings.push_back(std::string("skipped: ") + error.what());
@@ -146,6 +162,8 @@ void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const So
     if (const auto period_s = mean_period_s(listing.stamps_ns)) {
       listing.info.period_s = *period_s;
       listing.period_known = true;
+      note_odd_period(listing.stamp_file.empty() ? "the names of the files" : listing.stamp_file.string(),
+                      listing.info);
     } else {
       listing.info.period_s = 1 / options.assumed_rate_hz;
     }

@@ -21,6 +21,7 @@ struct ScanListing {
   SourceInfo info;
   std::vector<std::filesystem::path> files;
   std::vector<std::int64_t> stamps_ns;                ///< as long as files
+  std::filesystem::path stamp_file;                   ///< where they are from; empty: the names, or none
   std::vector<std::filesystem::path> fraction_files;  ///< a drive simulator's times_pt; empty, or as long as files
   std::size_t column_points = 0;                      ///< points per column, fired together; 0: unknown
   bool period_known = false;                          ///< info.period_s comes from stamps or meta.json
@@ -84,6 +85,9 @@ std::vector<std::int64_t> places_from_names(const std::vector<std::filesystem::p
 /// Mean of the steps that move forward, in s, without gaps and bursts, which are off by more than half of the median
 /// step: the median alone is a whole number of 10 ms where stamps are rounded to that. Nothing when there are none.
 std::optional<double> mean_period_s(const std::vector<std::int64_t>& stamps);
+
+/// Warns of a period that no LiDAR has: its stamps, `of` something, are in another unit.
+void note_odd_period(const std::string& of, SourceInfo& info);
 
 /// Counts a skipped sweep (OnBadSweep::kSkip); the first ones are warnings of their own.
 void note_bad_sweep(const IoError& error, SourceInfo& info);

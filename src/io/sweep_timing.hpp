@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rilo/io/point_times.hpp"
 #include "rilo/io/source_options.hpp"
@@ -15,8 +16,9 @@ class SweepTiming {
   /// `period_s` is the one for azimuth times.
   SweepTiming(const SourceOptions& options, const PointTimeHints& hints, double period_s);
 
-  /// Before the first sweep: the data promise times of that description, or none.
-  void promise(const std::optional<std::string>& times);
+  /// Before the first sweep: the data promise times of that description, or none. `ends`: of the time field in the
+  /// first sweeps (see add_time_ends()); a field that is the same for all points of a sweep is none.
+  void promise(const std::optional<std::string>& times, const std::vector<RawTimes>& ends = {});
 
   /// Fills sweep.times_s (and the stamp, when the times count from an epoch) from `times`, the azimuth, or not at all.
   /// `forward_after_s`: from the stamp to the time when the sensor faces forward, for azimuth times.
@@ -26,6 +28,8 @@ class SweepTiming {
 
   bool has_times() const { return has_times_; }
   const std::string& description() const { return description_; }
+  /// Sentences about the times, for SourceInfo::warnings.
+  std::vector<std::string> warnings() const;
   /// The points' times count from an epoch: they set the stamps.
   bool sets_stamps() const;
 
@@ -33,7 +37,11 @@ class SweepTiming {
   PointTimes from_;
   SpinDirection spin_;
   double period_s_;
+  bool infers_unit_;
+  bool stamps_in_field_;  // one stamp for all points of a sweep is enough
   PointTimeDecoder decoder_;
+  bool constant_ = false;  // the field, in all sweeps so far
+  std::string constant_field_;
   bool has_times_ = false;
   std::string description_ = "none";
 };

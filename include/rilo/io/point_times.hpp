@@ -27,6 +27,7 @@ struct PointTimeHints {
   PointTimeReference reference = PointTimeReference::kInfer;
   std::optional<double> period_s;  ///< of the sweeps, when stamps give it
   double assumed_period_s = 0.1;   ///< for fractions, when no stamps give it
+  bool unit_certain = false;       ///< by definition of the data: `unit` is not checked
 };
 
 /// Converts a field as stored in the file into Sweep::times_s (and the stamp, when the times count from an epoch). The
@@ -35,8 +36,14 @@ class PointTimeDecoder {
  public:
   explicit PointTimeDecoder(const PointTimeHints& hints) : hints_(hints) {}
 
+  /// Before the first sweep, and not needed: first and last time of the bulk (without single wrong times) of some of
+  /// the first sweeps. The widest that shows a unit decides it: one that is a part of a
+  /// sweep tells nothing. Times that advance from sweep to sweep count from an epoch, however near zero.
+  void learn(const std::vector<RawTimes>& ends);
+
   /// Fills sweep.times_s from `raw`, which is as long as sweep.points; sets sweep.stamp_ns to the earliest point when
-  /// the times count from an epoch. Points without a finite time become NaN. Points that are not a measurement (NaN, or
+  /// the times count from an epoch. Points without a finite time become NaN, as do a few whose times are too far from
+  /// those of the others to be of the same sweep. Points that are not a measurement (NaN, or
   /// exactly at the origin) take no part in the decision and get time 0. `file` is for messages.
   /// @throws IoError, with the numbers and the option to set, when the convention is ambiguous or a sweep contradicts
   /// it.
@@ -48,10 +55,18 @@ class PointTimeDecoder {
   /// For people: "field t (uint32), ns since the sweep's stamp"; empty before the decision.
   const std::string& description() const { return description_; }
 
+  /// A sentence about the first points whose times are wrong; empty when there were none.
+  const std::string& warning() const { return warning_; }
+
  private:
+  PointTimeConvention convention_of(const RawTimes& raw, const std::filesystem::path& file, const Sweep& sweep) const;
+
   PointTimeHints hints_;
+  std::optional<PointTimeUnit> learnt_unit_;
+  bool advances_ = false;
   std::optional<PointTimeConvention> convention_;
   std::string description_;
+  std::string warning_;
 };
 
 /// Times of a spinning sensor that whose timestamp is that of the forward direction (azimuth 0): time = -azimuth / 2π ·

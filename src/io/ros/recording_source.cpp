@@ -1,8 +1,11 @@
 #include "io/ros/recording_source.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "io/ros/driver_messages.hpp"
 #include "io/ros/scan_topic.hpp"
@@ -10,6 +13,7 @@
 #include "io/stamp_difference.hpp"
 #include "io/sweep_timing.hpp"
 #include "io/text.hpp"
+#include "io/time_field.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -45,6 +49,7 @@ PointTimeHints hints_of(const RecordedTopic& topic, const SourceOptions& options
   PointTimeHints hints{options.point_time_unit, options.point_time_reference, {}, 0};
   if (scan_form(topic) == ScanForm::kLivoxCustom) {  // by definition of the message
     hints.unit = PointTimeUnit::kNanoseconds;
+    hints.unit_certain = true;
     hints.reference = PointTimeReference::kStamp;
   }
   return hints;
@@ -95,6 +100,15 @@ class RecordingSource final : public ScanSource {
     info.format = recording_->format();  // the compression shows on the way
     info.has_point_times = timing_->has_times();
     info.point_times = timing_->description();
+    if (timing_->sets_stamps()) {
+      info.stamps_assumed = false;
+    } else if (unstamped_) {
+      info.warnings.push_back(fmt::format(
+          "the messages have no stamps: {}",
+          info.stamps_assumed ? fmt::format("assuming {:g} Hz (change with --rate)", options_.assumed_rate_hz)
+                              : "the times when they were recorded are used"));
+    }
+    for (std::string& warning : timing_->warnings()) info.warnings.push_back(std::move(warning));
     for (std::string& warning : recording_->warnings()) info.warnings.push_back(std::move(warning));
     add_bad_sweep_count(info);
     return info;
@@ -105,31 +119,51 @@ class RecordingSource final : public ScanSource {
   void look_ahead() {
     constexpr std::size_t kLookedAt = 12;
     std::vector<std::int64_t> stamps;
+    std::vector<std::int64_t> received;
     std::optional<std::string> promised;
+    std::vector<RawTimes> ends;
     recording_->select(topic_);
     for (std::size_t i = 0; i < kLookedAt; ++i) {
       CloudMessage cloud;
+      std::int64_t received_ns = 0;
       try {
         const auto message = recording_->next();
         if (!message) break;
+        received_ns = message->received_ns;
         parse_cloud(*message, topic_, options_.time_field, "", cloud);
-        if (cloud.cloud.times) promised = "field " + cloud.cloud.times->field;
       } catch (const IoError&) {
         // Reported when it is reached.
       }
       if (!cloud.stamp_ns) continue;
-      if (stamps.empty()) info_.frame_id = cloud.frame_id;
-      if (sensor_.empty()) sensor_ = cloud.sensor;
-      if (cloud.sensor == sensor_) stamps.push_back(*cloud.stamp_ns);
+      if (sensor_.empty()) {
+        sensor_ = cloud.sensor;
+        info_.frame_id = cloud.frame_id;
+      }
+      if (cloud.sensor != sensor_) continue;
+      stamps.push_back(*cloud.stamp_ns);
+      received.push_back(received_ns);
+      if (!cloud.cloud.times) continue;
+      promised = "field " + cloud.cloud.times->field;
+      add_time_ends(*cloud.cloud.times, cloud.cloud.points, ends);
     }
     recording_->select(topic_);
-    const auto period_s = mean_period_s(stamps);
+    // ROS' stamp of nothing.
+    unstamped_ = stamps.size() > 1 && std::all_of(stamps.begin(), stamps.end(), [](auto stamp) { return stamp == 0; });
+    const auto period_s = mean_period_s(unstamped_ ? received : stamps);
+    info_.stamps_assumed = unstamped_ && !period_s;
     info_.period_s = period_s.value_or(1 / options_.assumed_rate_hz);
+    if (period_s) note_odd_period("the messages", info_);
     PointTimeHints hints = hints_of(topic_, options_);
     hints.period_s = period_s;
     hints.assumed_period_s = info_.period_s;
     timing_.emplace(options_, hints, info_.period_s);
-    timing_->promise(promised);
+    timing_->promise(promised, ends);
+  }
+
+  std::int64_t stamp_of(const RecordedMessage& message, std::int64_t header_ns) const {
+    if (!unstamped_) return header_ns;
+    if (!info_.stamps_assumed) return message.received_ns;
+    return std::llround(static_cast<double>(current_) * info_.period_s * 1e9);
   }
 
   Sweep decode(const RecordedMessage& message) {
@@ -140,12 +174,12 @@ class RecordingSource final : public ScanSource {
     check_sensor(cloud, part);
     RawCloud& columns = cloud.cloud;
     Sweep sweep;
-    sweep.stamp_ns = *cloud.stamp_ns;
+    sweep.stamp_ns = stamp_of(message, *cloud.stamp_ns);
     sweep.points = std::move(columns.points);
     sweep.intensities = std::move(columns.intensities);
     sweep.rings = std::move(columns.rings);
     timing_->apply(columns.times, current_name(), 0, sweep);
-    note_lateness(stamp_difference(message.received_ns, *cloud.stamp_ns));
+    if (!unstamped_) note_lateness(stamp_difference(message.received_ns, *cloud.stamp_ns));
     return sweep;
   }
 
@@ -171,6 +205,7 @@ class RecordingSource final : public ScanSource {
   RecordedTopic topic_;
   SourceInfo info_;
   std::optional<SweepTiming> timing_;
+  bool unstamped_ = false;  // the headers' stamps are zero
   std::filesystem::path file_;
   std::string sensor_;       // that of the first message
   std::size_t cursor_ = 0;   // of the next message

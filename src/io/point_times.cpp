@@ -10,6 +10,7 @@
 #include "io/stamp_difference.hpp"
 #include "io/text.hpp"
 #include "io/time_field.hpp"
+#include "rilo/io/io_error.hpp"
 
 namespace rilo {
 namespace {
@@ -30,8 +31,6 @@ constexpr double kFarthestFromStamp = 2.5;
 constexpr double kFractionSlack = 0.01;
 // Half of the period, without the ends of the times that the bulk lacks.
 constexpr double kLeastOfFractions = 0.48;
-// Farther than this from most of the others, in periods, a point is not of the same sweep, which holds up to 450°.
-constexpr double kReach = 1.25;
 
 double seconds_per(PointTimeUnit unit, double period_s) {
   switch (unit) {
@@ -269,7 +268,7 @@ void PointTimeDecoder::decode(const RawTimes& raw, const std::filesystem::path& 
   const double period_s = hints_.period_s.value_or(hints_.assumed_period_s);
   const double scale = seconds_per(convention.unit, period_s);
   const TimeField field = convention.unit == PointTimeUnit::kFraction ? all.between(-kFractionSlack, 1 + kFractionSlack)
-                                                                      : all.within(kReach * period_s / scale);
+                                                                      : all.of_one_sweep(period_s / scale);
   check_resolution(field);
   check_against(field, convention, scale);
   const bool from_epoch = convention.reference == PointTimeReference::kEpoch;

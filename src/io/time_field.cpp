@@ -65,10 +65,10 @@ TimeField TimeField::bulk() const {
   return field;
 }
 
-TimeField TimeField::within(double reach) const {
-  if (span() <= reach) return *this;
+TimeField TimeField::of_one_sweep(double period) const {
+  if (span() <= kMostSwept * period) return *this;
   const TimeField middle = bulk();
-  const double most = std::max(reach, kMostSwept * middle.span());
+  const double most = kMostSwept * std::max(period, middle.span());
   TimeField near = *this;
   near.narrow([&](std::size_t i) { return apart(i, middle.first_) <= most && apart(middle.last_, i) <= most; });
   return near;

@@ -21,9 +21,9 @@ class TimeField {
 
   /// Without the ends, 2 % of the times each: a wrong time, or a packet of them, is not in it. All of few times.
   TimeField bulk() const;
-  /// The times that can belong to one sweep: `reach` from the far end of the bulk, or 1.25 times as far as the bulk
-  /// itself where that is more. All of them where their span is no more than `reach`.
-  TimeField within(double reach) const;
+  /// The times that can be of one sweep: from the far end of the bulk, 1.25 times the period, or the bulk's span where
+  /// that is more. All of them where they span no more.
+  TimeField of_one_sweep(double period) const;
   /// The times from `least` to `most`, or all when those beyond are more than the ends of the bulk.
   TimeField between(double least, double most) const;
 

@@ -206,6 +206,22 @@ std::size_t fill(const TimeField& field, bool from_first, double scale, Sweep& s
   return outside;
 }
 
+// Of the first sweep with such times: more would say the same.
+std::string warning_of(const TimeField& field, double scale, std::size_t outside,
+                       const std::optional<double>& period_s) {
+  if (outside > 0) {
+    return fmt::format(
+        "{}: {} of {} points have times too far from those of the others to be of the same sweep: they are not used, "
+        "nor "
+        "are any in later sweeps",
+        field.file().string(), outside, field.raw().size());
+  }
+  const double span_s = field.span() * scale;
+  if (!period_s || span_s <= kMostOfPeriod * *period_s) return {};
+  return fmt::format("{}: the times of its points span {:.3g} s, where sweeps come every {:.3g} s",
+                     field.file().string(), span_s, *period_s);
+}
+
 }  // namespace
 
 void PointTimeDecoder::learn(const std::vector<RawTimes>& ends) {
@@ -274,12 +290,7 @@ void PointTimeDecoder::decode(const RawTimes& raw, const std::filesystem::path& 
   const bool from_epoch = convention.reference == PointTimeReference::kEpoch;
   if (from_epoch) sweep.stamp_ns = epoch_stamp_ns(field, scale);
   const std::size_t outside = fill(field, from_epoch, scale, sweep);
-  if (outside > 0 && warning_.empty()) {
-    warning_ = fmt::format(
-        "{}: {} of {} points have times too far from those of the others to be of the same sweep: they are not used, "
-        "nor are any in later sweeps",
-        file.string(), outside, sweep.points.size());
-  }
+  if (warning_.empty()) warning_ = warning_of(field, scale, outside, hints_.period_s);
   convention_ = convention;
   description_ = describe(field, convention);
 }

@@ -91,6 +91,16 @@ TEST(WrongTimesTest, ManyAreAFault) {
   expect_io_error([&] { decoder.decode(raw, "b", sweep); }, {"b", "at most 2.5 s"});
 }
 
+TEST(WrongTimesTest, TooLongIsSaid) {
+  RawTimes raw = times(0, 0.1);
+  for (std::size_t i = 0; i < 100; ++i) raw.floats[i] = 0.5;
+  PointTimeDecoder decoder = decoder_of();
+  Sweep sweep = sweep_of();
+  decoder.decode(times(0, 0.1), "a", sweep);
+  decoder.decode(raw, "b", sweep);
+  EXPECT_NE(decoder.warning().find("b: the times of its points span 0.49 s"), std::string::npos) << decoder.warning();
+}
+
 TEST(WrongTimesTest, PointsInFewDirectionsAreRight) {
   // Most of the points where a wall is, the others anywhere in the sweep.
   RawTimes raw = times(0.04, 0.002);

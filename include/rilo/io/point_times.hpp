@@ -55,7 +55,7 @@ class PointTimeDecoder {
   /// For people: "field t (uint32), ns since the sweep's stamp"; empty before the decision.
   const std::string& description() const { return description_; }
 
-  /// A sentence about the first points whose times are wrong; empty when there were none.
+  /// A sentence about the first sweep with points whose times are wrong, or that lasts too long; empty without.
   const std::string& warning() const { return warning_; }
 
  private:

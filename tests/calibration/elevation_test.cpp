@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/elevation_offset.hpp"
+#include "calibration/sensor_calibration.hpp"
 #include "map/local_map.hpp"
 #include "registration/registration_scenes.hpp"
 #include "rilo/odometry/odometry.hpp"
@@ -121,6 +122,33 @@ TEST(Elevation, TheGradientAgreesWithDifferences) {
                          (2 * kStep);
   EXPECT_GT(std::abs(numeric), 1.0);
   EXPECT_NEAR(-sweep.gradient, numeric, 0.05 * std::abs(numeric));  // points change voxels
+}
+
+/// Its points, which say that the sensor's elevation angles are 0.3° too small, are seen 30 times.
+TEST(Elevation, TheMapMovesOnceAndNotBeforeItIsTold) {
+  SceneSampling sampling;
+  sampling.spacing_m = 0.05;
+  LocalMap map(scene_map_config());
+  map.set_scene_range(6.0);
+  map.insert(make_box_room({9.3, 7.1, 3.3}, sampling), SE3::Identity());
+  sampling.spacing_m = 0.11;
+  PreparedSweep sweep;
+  for (const Eigen::Vector3f& p : make_box_room({9.3, 7.1, 3.3}, sampling)) {
+    sweep.source.points.push_back(ElevationRotation(-0.3 * kDegree)(p));
+  }
+  IcpResult icp;
+  icp.posterior_information = 1e9 * Matrix12d::Identity();
+  SensorCalibration calibration({}, BeamCalibrationConfig{false});
+  for (int i = 0; i < 30 && calibration.elevation().applied_rad() == 0.0; ++i) {
+    calibration.learn(sweep, icp, 0.3, {}, true, map);
+  }
+  ASSERT_NE(calibration.elevation().applied_rad(), 0.0);
+  const std::vector<Eigen::Vector3f> before = map.points();
+  calibration.move(map);
+  const std::vector<Eigen::Vector3f> after = map.points();
+  EXPECT_NE(before, after);
+  calibration.move(map);
+  EXPECT_EQ(map.points(), after);
 }
 
 TEST(Elevation, NothingSeenNothingSaid) {

@@ -29,7 +29,8 @@ void add_time_flags(CLI::App& command, SourceRequest& flags) {
       command, "--point-time-reference",
       [&options](const std::string& text) { options.point_time_reference = parse_point_time_reference(text).value(); },
       {"infer", "stamp", "epoch"}, "what the time field counts from: the sweep's stamp or an epoch");
-  command.add_option("--time-field", options.time_field, "name of the PCD or PLY field with the point times");
+  command.add_option("--time-field", options.time_field,
+                     "name of the field with the point times, of a PCD, a PLY or a PointCloud2");
   add_choice(
       command, "--spin",
       [&options](const std::string& text) { options.spin_direction = parse_spin_direction(text).value(); },

@@ -43,7 +43,7 @@ def open(path, **options):
                               whether points without times are raw (auto).
     point_time_unit:          infer, s, ms, us, ns or fraction.
     point_time_reference:     infer, stamp or epoch: what the time field counts from.
-    time_field:               name of the PCD or PLY field with the point times.
+    time_field:               name of the field with the point times (PCD, PLY, PointCloud2).
     spin:                     clockwise or counter-clockwise, seen from above, for point_times="azimuth".
     elevation_correction_deg: added to every point's elevation angle; KITTI's HDL-64E needs 0.205.
     rate:                     sweeps per second of data without stamps.

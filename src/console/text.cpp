@@ -31,10 +31,6 @@ std::string command_line(int argc, const char* const* argv) {
   return valid_utf8(line);
 }
 
-std::string counted(std::size_t count, const std::string& thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
 std::string last_name(const std::filesystem::path& path) {
   const std::filesystem::path plain = path.lexically_normal();
   return (plain.has_filename() ? plain : plain.parent_path()).filename().string();

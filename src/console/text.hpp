@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/text.hpp"
+
 namespace rilo {
 
 /// Indented; bytes of file names that are not UTF-8 are replaced.
@@ -25,8 +27,7 @@ std::string shell_quoted(const std::string& word);
 /// The command line as one would type it.
 std::string command_line(int argc, const char* const* argv);
 
-/// "1 sweep", "2 sweeps".
-std::string counted(std::size_t count, const std::string& thing);
+using detail::counted;
 
 /// Last part of a path, also when it ends in a slash.
 std::string last_name(const std::filesystem::path& path);

@@ -148,6 +148,12 @@ std::optional<std::int64_t> parse_whole(std::string_view text) {
   return whole ? std::optional(static_cast<std::int64_t>(*number)) : std::nullopt;
 }
 
+// time_offset, gps_time, timestamp_ns, ts: their values are not looked at, so that they are a hint and no more.
+bool sounds_like_times(const std::string& name) {
+  const std::string plain = plain_name(name);
+  return plain == "ts" || plain.find("time") != std::string::npos || plain.find("stamp") != std::string::npos;
+}
+
 }  // namespace
 
 std::vector<std::size_t> FieldRoles::all() const {
@@ -173,7 +179,7 @@ FieldRoles find_roles(const std::vector<Field>& fields, const std::string& time_
     roles.time = find_name(names, {plain_name(time_field)});
     if (!roles.time) {
       throw IoError({file, part, list_of(fields), "the time field " + in_quotes(time_field),
-                     "Set time_field to one of these, or leave it out"});
+                     "Set time_field (--time-field) to one of these, or leave it out"});
     }
     return roles;
   }
@@ -182,6 +188,14 @@ FieldRoles find_roles(const std::vector<Field>& fields, const std::string& time_
   const bool texture = roles.time && names[*roles.time] == "t" && find_name(names, {"s"});
   if (texture) roles.time.reset();
   return roles;
+}
+
+std::vector<FieldInfo> describe_fields(const std::vector<Field>& fields, const FieldRoles& roles) {
+  std::vector<FieldInfo> described;
+  for (const Field& field : fields)
+    described.push_back({field.name, false, !roles.time && sounds_like_times(field.name)});
+  for (const std::size_t index : roles.all()) described[index] = {fields[index].name, true, false};
+  return described;
 }
 
 void read_column(const ColumnView& column, std::vector<double>& values) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rilo/io/cloud_reader.hpp"
+#include "rilo/io/scan_source.hpp"
 
 namespace rilo::detail {
 
@@ -51,6 +52,9 @@ struct FieldRoles {
 /// @throws IoError when x, y or z is missing, or the time field that was asked for.
 FieldRoles find_roles(const std::vector<Field>& fields, const std::string& time_field,
                       const std::filesystem::path& file, const std::string& part = "");
+
+/// For SourceInfo::fields.
+std::vector<FieldInfo> describe_fields(const std::vector<Field>& fields, const FieldRoles& roles);
 
 /// One column: value i is at data + i * stride.
 struct ColumnView {

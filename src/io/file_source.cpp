@@ -43,18 +43,25 @@ std::vector<Field> fields_of(const std::filesystem::path& file, const std::strin
   return fields;
 }
 
-// What the first file promises. A file that cannot be read is reported when it is reached.
-std::optional<std::string> promised_times(const ScanListing& listing, const SourceOptions& options) {
-  if (listing.column_points > 0) return "the order of the points, fractions of the sweep since its stamp";
-  if (!listing.fraction_files.empty()) return "times_pt, fractions of the sweep since its stamp";
+// What the first file has. A file that cannot be read is reported when it is reached.
+void look_at_fields(ScanListing& listing, const SourceOptions& options, std::optional<std::string>& times) {
   try {
     const std::vector<Field> fields = fields_of(listing.files.front(), listing.info.format, options);
     const FieldRoles roles = find_roles(fields, options.time_field, listing.files.front());
-    if (roles.time) return "field " + fields[*roles.time].name;
+    listing.info.fields = describe_fields(fields, roles);
+    if (roles.time) times = "field " + fields[*roles.time].name;
   } catch (const IoError&) {
-    return std::nullopt;
+    return;
   }
-  return std::nullopt;
+}
+
+// Also fills in the fields of the listing.
+std::optional<std::string> promised_times(ScanListing& listing, const SourceOptions& options) {
+  std::optional<std::string> times;
+  look_at_fields(listing, options, times);
+  if (listing.column_points > 0) return "the order of the points, fractions of the sweep since its stamp";
+  if (!listing.fraction_files.empty()) return "times_pt, fractions of the sweep since its stamp";
+  return times;
 }
 
 // Of a sensor whose columns lie one after the other; a sweep that lacks points has none.
@@ -75,7 +82,7 @@ RawTimes read_fractions(const std::filesystem::path& file, std::size_t points) {
   if (bytes.size != points * sizeof(float)) {
     throw IoError({file, "", std::to_string(bytes.size) + " bytes",
                    std::to_string(points) + " float32, one for each point of the sweep",
-                   "Copy or write the drive again, or set point_times to none or azimuth"});
+                   "Copy or write the drive again, or set point_times (--point-times) to none or azimuth"});
   }
   RawTimes times{"times_pt", ScalarType::kFloat32, {}, {}};
   times.floats.resize(points);
@@ -90,9 +97,8 @@ class FileSource final : public ScanSource {
       : listing_(std::move(listing)),
         options_(with_bin_fields(listing_, options)),
         timing_(options, hints_of(listing_, options), listing_.info.period_s) {
-    note_unused_topic(options, listing_.info);
-    if (options.point_times != PointTimes::kAuto) return;
     const auto promised = promised_times(listing_, options_);
+    if (options.point_times != PointTimes::kAuto) return;
     timing_.promise(promised, promised ? first_time_ends() : std::vector<RawTimes>{});
   }
 

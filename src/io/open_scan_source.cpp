@@ -5,6 +5,7 @@
 #include "io/cloud_columns.hpp"
 #include "io/file_bytes.hpp"
 #include "io/packets/packet_source.hpp"
+#include "io/ros/cloud_fields.hpp"
 #include "io/ros/recording_source.hpp"
 #include "io/scan_listing.hpp"
 #include "io/source_wrappers.hpp"
@@ -48,7 +49,7 @@ std::unique_ptr<ScanSource> open_folder(const fs::path& folder, const SourceOpti
   if (detail::is_kitti_raw(folder)) return detail::open_files(detail::list_kitti_raw(folder, options), options);
   if (detail::is_mulran(folder)) return detail::open_files(detail::list_mulran(folder, options), options);
   if (auto recording = recording_in_folder(folder)) {
-    return detail::open_recording(folder, std::move(recording), options);
+    return detail::open_with_fields(folder, std::move(recording), options);
   }
   return detail::open_files(detail::list_plain_folder(folder, options), options);
 }
@@ -56,7 +57,7 @@ std::unique_ptr<ScanSource> open_folder(const fs::path& folder, const SourceOpti
 std::unique_ptr<ScanSource> open_file(const fs::path& file, const SourceOptions& options) {
   const std::string extension = extension_of(file);
   if (extension == ".pcap" || extension == ".pcapng") return detail::open_capture(file, options);
-  if (auto recording = recording_in_file(file)) return detail::open_recording(file, std::move(recording), options);
+  if (auto recording = recording_in_file(file)) return detail::open_with_fields(file, std::move(recording), options);
   return detail::open_files(detail::list_single_file(file, options), options);
 }
 
@@ -91,6 +92,7 @@ std::unique_ptr<ScanSource> open_live_source(std::shared_ptr<LiveQueue> queue, c
 std::unique_ptr<ScanSource> open_scan_source(const fs::path& path, const SourceOptions& options) {
   check_options(options);
   std::unique_ptr<ScanSource> source = in_order_and_corrected(open_data(path, options), options);
+  source = detail::with_option_warnings(std::move(source), options);
   return options.read_ahead == 0 ? std::move(source) : detail::with_read_ahead(std::move(source), options.read_ahead);
 }
 

@@ -101,10 +101,10 @@ class OrderTimedSource final : public detail::WrappedSource {
     } else if (in_order_) {
       sweep->times_s = times_by_index(sweep->points.size(), period_s);
     } else {
-      throw IoError({inner_->current_name(), "",
-                     "points that do not lie in the order in which a sensor that turns measured them",
-                     "points whose azimuth goes once round, as drivers of spinning sensors write them",
-                     "Set point_times to azimuth for raw points in another order, or to none to go without"});
+      throw IoError(
+          {inner_->current_name(), "", "points that do not lie in the order in which a sensor that turns measured them",
+           "points whose azimuth goes once round, as drivers of spinning sensors write them",
+           "Set point_times (--point-times) to azimuth for raw points in another order, or to none to go without"});
     }
     return sweep;
   }

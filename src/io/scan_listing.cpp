@@ -44,7 +44,7 @@ void add_point_times(ScanListing& listing, const fs::path& folder) {
   if (listing.fraction_files.size() != listing.files.size()) {
     throw IoError({folder, "", std::to_string(listing.fraction_files.size()) + " files of point times",
                    "one for each of the " + std::to_string(listing.files.size()) + " sweeps in velodyne",
-                   "Copy or write the drive again, or set point_times to none or azimuth"});
+                   "Copy or write the drive again, or set point_times (--point-times) to none or azimuth"});
   }
   for (std::size_t i = 0; i < listing.files.size(); ++i) {
     if (listing.fraction_files[i].stem() == listing.files[i].stem()) continue;
@@ -139,13 +139,8 @@ void note_bad_sweep(const IoError& error, SourceInfo& info) {
 
 void add_bad_sweep_count(SourceInfo& info) {
   if (info.bad_sweeps == 0) return;
-  info.warnings.push_back(std::to_string(info.bad_sweeps) + " sweeps could not be read and were skipped");
-}
-
-void note_unused_topic(const SourceOptions& options, SourceInfo& info) {
-  if (options.topic.empty()) return;
-  info.warnings.push_back("--topic " + in_quotes(options.topic) +
-                          " is ignored: the data are not a recording of topics");
+  info.warnings.push_back(counted(info.bad_sweeps, "sweep") + " could not be read and " +
+                          (info.bad_sweeps == 1 ? "was" : "were") + " skipped");
 }
 
 void start_listing(ScanListing& listing, const char* kind, const fs::path& path, SweepFiles found) {

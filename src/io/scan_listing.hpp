@@ -94,9 +94,6 @@ void note_bad_sweep(const IoError& error, SourceInfo& info);
 /// The warning with the number of those.
 void add_bad_sweep_count(SourceInfo& info);
 
-/// Warns of SourceOptions::topic on data without topics.
-void note_unused_topic(const SourceOptions& options, SourceInfo& info);
-
 /// Sets stamps and period from `stamps`, or from the assumed rate when there are none; adds the warnings.
 void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const SourceOptions& options);
 

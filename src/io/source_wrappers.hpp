@@ -46,6 +46,10 @@ std::unique_ptr<ScanSource> with_elevation_correction(std::unique_ptr<ScanSource
 /// points.
 std::unique_ptr<ScanSource> with_order_times(std::unique_ptr<ScanSource> inner);
 
+/// Warns of options that make no difference to the data of `inner`, which has just been opened, and of fields of the
+/// data that may hold times and are not used.
+std::unique_ptr<ScanSource> with_option_warnings(std::unique_ptr<ScanSource> inner, const SourceOptions& options);
+
 /// Reads up to `depth` sweeps (one at least) ahead on a background thread, which starts at the first next(). The order
 /// and the errors are those of `inner`: an exception is rethrown by the next() that would have thrown it. The
 /// destructor waits for the sweep that is being read.

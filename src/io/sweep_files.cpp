@@ -127,14 +127,16 @@ std::optional<std::string> subfolder_with_sweeps(const fs::path& folder, const s
     throw IoError({folder, "", found + "; subfolder " + *below,
                    "sweeps, or a KITTI sequence folder with velodyne/ in it", "Give that subfolder"});
   }
-  found += ", " + std::to_string(content.others) + " other files";
+  found += ", " + counted(content.others, "other file");
   constexpr std::size_t kMostNames = 5;
   for (std::size_t i = 0; i < std::min(content.folders.size(), kMostNames); ++i) {
     found += (i == 0 ? " and the folders " : ", ") + content.folders[i];
   }
   if (content.folders.size() > kMostNames) found += ", …";
+  const std::vector<fs::path> captures = files_with(folder, {".pcap", ".pcapng"});
   throw IoError({folder, "", found, "sweeps, or a KITTI sequence folder with velodyne/ in it",
-                 "Give the folder that holds the sweeps themselves"});
+                 captures.empty() ? "Give the folder that holds the sweeps themselves"
+                                  : "Give the recording of packets itself: " + captures[0].string()});
 }
 
 }  // namespace

@@ -10,10 +10,11 @@
 
 namespace rilo::detail {
 
-/// Walks through the lines of a text without copying; a carriage return before the line feed is taken off.
+/// Walks through the lines of a text without copying; a carriage return before the line feed is taken off, and a mark
+/// of UTF-8 (BOM), as Windows' editors write it, from the first one.
 class LineScanner {
  public:
-  explicit LineScanner(std::string_view text) : text_(text) {}
+  explicit LineScanner(std::string_view text) : text_(text), offset_(text.starts_with("\xEF\xBB\xBF") ? 3 : 0) {}
 
   /// The next line, or nothing at the end. A text that ends with a line feed has no empty last line.
   std::optional<std::string_view> next();
@@ -23,7 +24,7 @@ class LineScanner {
 
  private:
   std::string_view text_;
-  std::size_t offset_ = 0;
+  std::size_t offset_;
   std::size_t number_ = 0;
 };
 
@@ -48,6 +49,9 @@ std::string lower_case(std::string_view text);
 std::optional<double> parse_double(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_unsigned(std::string_view text);
+
+/// "1 sweep", "2 sweeps".
+std::string counted(std::size_t count, const std::string& thing);
 
 /// For messages: in quotes, cut after 40 characters, bytes that are not printable ASCII as '?'.
 std::string in_quotes(std::string_view text);

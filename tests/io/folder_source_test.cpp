@@ -183,6 +183,9 @@ TEST(FolderSourceTest, FoldersThatAreNoData) {
   folder.write("mixed/b.bin", "");
   folder.write("mixed/c.pcd", "");
   expect_io_error([&] { open_scan_source(folder / "mixed"); }, {"mixed", "2 .bin and 1 .pcd"});
+  folder.write("captures/b.pcap", "");
+  folder.write("captures/notes.txt", "");
+  expect_io_error([&] { open_scan_source(folder / "captures"); }, {"2 other files", "itself: ", "captures/b.pcap"});
   std::filesystem::create_directories(folder / "root/sequences/00");
   expect_io_error([&] { open_scan_source(folder / "root/sequences"); }, {"the folders 00", "the sweeps themselves"});
   folder.write("drive/lidar/data/0.pcd", "");

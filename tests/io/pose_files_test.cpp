@@ -135,6 +135,12 @@ TEST(PoseFileTest, CommentsBlankLinesAndCarriageReturns) {
   ASSERT_EQ(poses.size(), 1U);
   EXPECT_EQ(poses[0].translation(), Eigen::Vector3d(5, 6, 7));
   EXPECT_TRUE(read_kitti_poses(folder.write("empty.txt", "")).empty());
+  // As editors on Windows begin a file.
+  EXPECT_EQ(read_tum(folder.write("bom.tum",
+                                  "\xEF\xBB\xBF"
+                                  "1 2 3 4 0 0 0 1\n"))
+                .size(),
+            1U);
 }
 
 TEST(PoseFileTest, KittiErrorsHaveLineAndColumn) {

@@ -32,6 +32,13 @@ struct StampFaults {
   friend bool operator==(const StampFaults&, const StampFaults&) = default;
 };
 
+/// A field of the points, as the data name it.
+struct FieldInfo {
+  std::string name;
+  bool used = false;
+  bool may_hold_times = false;  ///< not used, but called like one, see SourceOptions::time_field
+};
+
 /// What a source is and what was decided about it. Some of it is known only after the first sweep was read.
 struct SourceInfo {
   std::string kind;            ///< "kitti", "drive simulator", "folder", "file", "recording", "packets", …
@@ -42,6 +49,7 @@ struct SourceInfo {
   bool stamps_assumed = false;          ///< the data has no stamps
   bool has_point_times = false;         ///< sweeps come with per-point times
   std::string point_times = "none";     ///< where they come from, with unit and reference
+  std::vector<FieldInfo> fields;        ///< of the first sweep; empty where fields have no names (packets)
   double elevation_correction_deg = 0;  ///< applied; 0: none
   std::optional<SE3> T_cam_lidar;       ///< KITTI's `Tr`
   std::string topic;                    ///< of a recording

@@ -65,8 +65,8 @@ struct SourceOptions {
   PointTimes point_times = PointTimes::kAuto;
   PointTimeUnit point_time_unit = PointTimeUnit::kInfer;
   PointTimeReference point_time_reference = PointTimeReference::kInfer;
-  std::string
-      time_field;  ///< name of the PCD or PLY field that holds the point times; empty: the first of the usual names
+  /// Name of the field (PCD, PLY, PointCloud2) that holds the point times; empty: the first of the usual names.
+  std::string time_field;
   SpinDirection spin_direction = SpinDirection::kClockwise;  ///< for PointTimes::kAzimuth
   double elevation_correction_deg = 0;  ///< added to every point's elevation angle; KITTI's HDL-64E needs 0.205
   double assumed_rate_hz = 10;          ///< for data without stamps

@@ -21,7 +21,6 @@ class PacketSource final : public ScanSource {
     info_.kind = "packets";
     info_.path = path;
     info_.topic = topic;
-    if (topic.empty()) note_unused_topic(options, info_);
     info_.period_s = 1 / options.assumed_rate_hz;
     find_period();
   }

@@ -85,8 +85,14 @@ class BagReader final : public Recording {
       throw IoError({path_, position, "a bag without an index: the recorder was killed", "an indexed bag",
                      "Run rosbag reindex on it"});
     } catch (const std::exception& error) {
-      throw IoError({path_, position, std::string("librosbag-storage says: ") + error.what(), "a whole ROS 1 bag",
-                     "Copy it again, or run rosbag reindex on it"});
+      // Python's package rosbags packs with LZ4 in a way that ROS' library does not unpack.
+      const std::string what = error.what();
+      throw IoError(
+          {path_, position, "librosbag-storage says: " + what, "a whole ROS 1 bag",
+           what.find("LZ4") == std::string::npos
+               ? "Copy it again, or run rosbag reindex on it"
+               : "Copy it again; where another program than ROS' own packed it, let that write it with bz2 or "
+                 "without compression"});
     }
   }
 

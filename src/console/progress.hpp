@@ -13,6 +13,9 @@ class Progress {
  public:
   Progress(std::string what, std::optional<std::size_t> total, bool quiet);
 
+  /// The work begins now, and not with the construction.
+  void start() { begin_ = Clock::now(); }
+
   /// `note`: a word on the current item (a status that is worth showing).
   void update(std::size_t done, const std::string& note = {});
 

@@ -17,7 +17,7 @@ std::string row(const char* name, const ErrorSummary& s, const char* unit) {
 }  // namespace
 
 std::string evaluation_table(const Evaluation& e) {
-  std::string text = fmt::format("{} poses, path {:.1f} m\n", e.poses, e.path_m);
+  std::string text = fmt::format("{}, path {:.1f} m\n", counted(e.poses, "pose"), e.path_m);
   const auto t_rel = e.kitti.t_rel_pct();
   const auto r_rel = e.kitti.r_rel_deg_100m();
   if (t_rel && r_rel) {
@@ -35,6 +35,7 @@ std::string evaluation_table(const Evaluation& e) {
   text += row("APE, SE(3) Umeyama aligned", e.ape.translation_m, "m");
   text += row("APE rotation, aligned", e.ape.rotation_deg, "deg");
   text += row("APE, unaligned (first pose equal)", e.ape_unaligned.translation_m, "m");
+  text += row("APE rotation, unaligned", e.ape_unaligned.rotation_deg, "deg");
   text += row("RPE per frame", e.rpe_frame.translation_m, "m");
   text += row("RPE per frame, rotation", e.rpe_frame.rotation_deg, "deg");
   text += row("RPE per metre", e.rpe_metre.translation_m, "m/m");

@@ -41,7 +41,7 @@ struct EvaluationMetrics {
   MaybeNumber path_m;
   MaybeNumber t_rel_pct, r_rel_deg_per_100m;
   std::string t_rel_protocol;
-  ErrorMetrics ape_m, ape_rotation_deg, ape_unaligned_m;
+  ErrorMetrics ape_m, ape_rotation_deg, ape_unaligned_m, ape_unaligned_rotation_deg;
   ErrorMetrics rpe_frame_m, rpe_frame_deg, rpe_metre_m_per_m, rpe_metre_deg_per_m;
   MaybeNumber end_error_m, end_error_pct;
   std::string truth;          ///< file of the true poses
@@ -56,6 +56,15 @@ struct BudgetMetrics {
   std::size_t coarse_cut = 0;
   std::size_t over_budget = 0;
   friend bool operator==(const BudgetMetrics&, const BudgetMetrics&) = default;
+};
+
+/// As CompensationTrial: raw or compensated; neither: not certain.
+struct TrialMetrics {
+  std::size_t sweeps = 0;
+  std::size_t better = 0;
+  bool raw = false;
+  bool compensated = false;
+  friend bool operator==(const TrialMetrics&, const TrialMetrics&) = default;
 };
 
 using Counts = std::map<std::string, std::size_t>;  // by name
@@ -80,7 +89,8 @@ struct RunMetrics {
   std::string pose_instant;
   std::string point_times;
   bool motion_compensation = false;
-  MaybeNumber elevation_correction_deg;  ///< given
+  std::optional<TrialMetrics> compensation;  ///< of points without times
+  MaybeNumber elevation_correction_deg;      ///< given
   std::string topic;
   std::string frame_id;
   std::size_t bad_sweeps = 0;

@@ -60,6 +60,7 @@ void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, Evalu
   f.key("ape_m", m.ape_m);
   f.key("ape_rotation_deg", m.ape_rotation_deg);
   f.key("ape_unaligned_m", m.ape_unaligned_m);
+  f.key("ape_unaligned_rotation_deg", m.ape_unaligned_rotation_deg);
   f.key("rpe_frame_m", m.rpe_frame_m);
   f.key("rpe_frame_deg", m.rpe_frame_deg);
   f.key("rpe_metre_m_per_m", m.rpe_metre_m_per_m);
@@ -76,6 +77,14 @@ void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, Budge
   f.key("points_cut", m.points_cut);
   f.key("coarse_cut", m.coarse_cut);
   f.key("over_budget", m.over_budget);
+}
+
+template <typename Fields, typename M>
+void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, TrialMetrics> {
+  f.key("sweeps", m.sweeps);
+  f.key("better", m.better);
+  f.key("raw", m.raw);
+  f.key("compensated", m.compensated);
 }
 
 template <typename Fields, typename M>
@@ -101,6 +110,7 @@ void list_data(Fields& f, M& m) {
   f.key("pose_instant", m.pose_instant);
   f.key("point_times", m.point_times);
   f.key("motion_compensation", m.motion_compensation);
+  f.maybe("compensation", m.compensation);
   f.key("elevation_correction_deg", m.elevation_correction_deg);
   f.key("topic", m.topic);
   f.key("frame_id", m.frame_id);
@@ -249,6 +259,8 @@ nlohmann::json to_json(const RunMetrics& metrics, MetricKeys keys) {
 }
 
 nlohmann::json to_json(const EvaluationMetrics& metrics) { return json_of(metrics, MetricKeys::kAll); }
+
+nlohmann::json to_json(const TrialMetrics& metrics) { return json_of(metrics, MetricKeys::kAll); }
 
 nlohmann::json to_json(const StampFaults& faults) { return json_of(faults, MetricKeys::kAll); }
 

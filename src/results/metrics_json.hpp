@@ -15,6 +15,7 @@ enum class MetricKeys : std::uint8_t { kAll, kSparse };
 
 nlohmann::json to_json(const RunMetrics& metrics, MetricKeys keys = MetricKeys::kAll);
 nlohmann::json to_json(const EvaluationMetrics& metrics);
+nlohmann::json to_json(const TrialMetrics& metrics);
 nlohmann::json to_json(const StampFaults& faults);
 
 /// The object in `file`. `expected` and `remedy` are parts of the message.

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "console/text.hpp"
 #include "console/version.hpp"
 #include "evaluation/percentile.hpp"
@@ -99,6 +101,7 @@ void add_data(const RunRecord& run, RunMetrics& metrics) {
   metrics.pose_instant = to_string(run.pose_instant);
   metrics.point_times = source.point_times;
   metrics.motion_compensation = source.has_point_times && run.config.preprocess.deskew;
+  if (was_tried(run)) metrics.compensation = trial_metrics(run.trial);
   metrics.elevation_correction_deg = source.elevation_correction_deg;
   metrics.topic = source.topic;
   metrics.frame_id = source.frame_id;
@@ -115,6 +118,20 @@ ErrorMetrics summary(const ErrorSummary& s) {
 
 }  // namespace
 
+bool was_tried(const SessionResult& run) { return !run.trial.timed && run.trial.sweeps > 0; }
+
+TrialMetrics trial_metrics(const CompensationTrial& trial) {
+  return {trial.sweeps, trial.better, trial.raw(), trial.compensated()};
+}
+
+std::string trial_outcome(const CompensationTrial& trial) {
+  return fmt::format("{} of {} fit better with the times of the points' order: {}", trial.better,
+                     counted(trial.sweeps, "sweep"),
+                     trial.raw()           ? "taken as raw"
+                     : trial.compensated() ? "taken as compensated"
+                                           : "not certain, taken as they are");
+}
+
 EvaluationMetrics evaluation_metrics(const Evaluation& e) {
   EvaluationMetrics metrics;
   metrics.poses = e.poses;
@@ -125,6 +142,7 @@ EvaluationMetrics evaluation_metrics(const Evaluation& e) {
   metrics.ape_m = summary(e.ape.translation_m);
   metrics.ape_rotation_deg = summary(e.ape.rotation_deg);
   metrics.ape_unaligned_m = summary(e.ape_unaligned.translation_m);
+  metrics.ape_unaligned_rotation_deg = summary(e.ape_unaligned.rotation_deg);
   metrics.rpe_frame_m = summary(e.rpe_frame.translation_m);
   metrics.rpe_frame_deg = summary(e.rpe_frame.rotation_deg);
   metrics.rpe_metre_m_per_m = summary(e.rpe_metre.translation_m);

@@ -12,6 +12,7 @@
 #include "console/failure.hpp"
 #include "console/interrupt.hpp"
 #include "io/stamp_difference.hpp"
+#include "results/run_metrics.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/io/trajectory_files.hpp"
 #include "session/steady_clock.hpp"
@@ -39,6 +40,10 @@ ProgressLine::ProgressLine(const RunRequest& flags, const ScanSource& source)
     : progress_("rilo", sweeps_to_do(source, flags.start, flags.count), flags.quiet),
       times_(flags.source.options.point_times) {}
 
+void ProgressLine::on_read(const Sweep& /*sweep*/, const std::string& /*name*/) {
+  if (done_ == 0) progress_.start();  // after the trial of points without times, and again in a second pass
+}
+
 void ProgressLine::on_registered(const RegisteredSweep& sweep) {
   if (done_ == 0 && times_ == PointTimes::kAuto && sweep.sweep.times_s.empty() && !note_given_) {
     note_given_ = true;
@@ -55,10 +60,8 @@ void ProgressLine::on_registered(const RegisteredSweep& sweep) {
 void ProgressLine::on_trial(const CompensationTrial& trial) {
   if (!trial.raw() && !trial.compensated()) return;
   note_given_ = true;
-  progress_.say(fmt::format(
-      "rilo: note: no per-point times; {} of {} sweeps fit better with those of the points' order: taken as {} "
-      "(--point-times {}: the other way)",
-      trial.better, trial.sweeps, trial.raw() ? "raw" : "compensated", trial.raw() ? "none" : "order"));
+  progress_.say(fmt::format("rilo: note: no per-point times; {} (--point-times {}: the other way)",
+                            trial_outcome(trial), trial.raw() ? "none" : "order"));
 }
 
 void ProgressLine::on_warning(const std::string& warning) { progress_.say("rilo: warning: " + warning); }

@@ -34,6 +34,7 @@ class SweepCheck final : public SessionObserver {
 class ProgressLine final : public SessionObserver {
  public:
   ProgressLine(const RunRequest& flags, const ScanSource& source);
+  void on_read(const Sweep& sweep, const std::string& name) override;
   void on_registered(const RegisteredSweep& sweep) override;
   void on_trial(const CompensationTrial& trial) override;
   void on_warning(const std::string& warning) override;

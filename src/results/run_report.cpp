@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "console/text.hpp"
+#include "results/run_metrics.hpp"
 #include "rilo/evaluation/pose_error.hpp"
 
 namespace rilo {
@@ -41,6 +42,7 @@ void add_facts(const RunRecord& run, const RunMetrics& metrics, RunReport& repor
                   {"Per-beam calibration", fmt::format("rms {:.3f}° in elevation, {:.3f}° in azimuth",
                                                        metrics.beam_elevation_rms_deg, metrics.beam_azimuth_rms_deg)},
                   {"Time measured", metrics.ms_note}};
+  if (was_tried(run)) report.facts.emplace_back("Raw or compensated", trial_outcome(run.trial));
   if (run.truth) {
     report.facts.emplace_back("Ground truth", valid_utf8(run.truth->file + " (" + run.truth->instant + ")"));
   }

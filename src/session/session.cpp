@@ -9,6 +9,7 @@
 
 #include "geometry/degrees.hpp"
 #include "io/source_wrappers.hpp"
+#include "io/text.hpp"
 #include "rilo/io/point_times.hpp"
 #include "session/compensation_trial.hpp"
 #include "session/process_memory.hpp"
@@ -25,10 +26,11 @@ class Session::Impl {
   const ScanSource& source() const { return *source_; }
 
   SessionResult run() {
-    const std::int64_t begin_ns = steady_ns();
     const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     result_.threads = options_.config.threads > 0 ? options_.config.threads : processors;
-    guarded([this] { run_sweeps(); });
+    guarded([this] { try_order(); });
+    const std::int64_t begin_ns = steady_ns();
+    if (!result_.failure) guarded([this] { run_sweeps(); });
     result_.wall_s = static_cast<double>(steady_ns() - begin_ns) * 1e-9;
     result_.peak_rss_mb = detail::peak_memory_mb();
     result_.source = source_->info();
@@ -62,7 +64,6 @@ class Session::Impl {
   }
 
   void run_sweeps() {
-    try_order();
     source_->skip(options_.start);
     while (!interrupted() && (options_.count == 0 || result_.results.size() < options_.count) && step()) {
       if (restart_due()) restart();
@@ -133,7 +134,8 @@ class Session::Impl {
     const std::string path = info.path.string();
     const std::optional<std::size_t> size = source_->size();
     if (size && options_.start >= *size) {
-      return fmt::format("{}: no sweep to run: start {} is past the last of {} sweeps", path, options_.start, *size);
+      return fmt::format("{}: no sweep to run: start {} is past the last of {}", path, options_.start,
+                         detail::counted(*size, "sweep"));
     }
     return fmt::format("{}: no sweep to run ({} could not be read)", path, info.bad_sweeps);
   }

@@ -67,7 +67,7 @@ struct SessionResult {
   CompensationTrial trial;           ///< of points without times
   std::optional<std::size_t> started_over_after;  ///< sweeps of the first pass, when there was a second
   PoseInstant pose_instant = PoseInstant::kMid;   ///< of the sweep, that the poses refer to
-  double wall_s = 0;                              ///< duration of the run, both passes
+  double wall_s = 0;                              ///< duration of the run, both passes; not of the trial
   double peak_rss_mb = 0;                         ///< largest memory of this process so far
   bool interrupted = false;                       ///< by SessionOptions::interrupted
   std::exception_ptr failure;                     ///< that ended the run; null: none

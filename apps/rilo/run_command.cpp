@@ -22,6 +22,7 @@
 #include "results/run_observers.hpp"
 #include "results/run_outputs.hpp"
 #include "results/run_record.hpp"
+#include "results/unusable_sweeps.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/session/session_observer.hpp"
@@ -106,6 +107,19 @@ std::unique_ptr<LiveView> open_view(const RunFlags& flags, const ScanSource& sou
                                     flags.no_truth ? std::nullopt : std::optional(TruthTrack(flags.data)));
 }
 
+/// Results of nothing but guesses are no success; where some sweeps could be used, the rest is worth a warning.
+void judge(const RunFlags& flags, const UnusableSweeps& unusable, RunRecord& run) {
+  const std::string warning = unusable.warning();
+  if (warning.empty()) return;
+  if (unusable.all() && run.error.empty() && run.signal == 0) {
+    run.error = flags.data + ": " + warning;
+    run.error_code = kBadData;
+    return;
+  }
+  run.source.warnings.push_back(warning);
+  if (!flags.quiet) std::cerr << "rilo: warning: " << warning << '\n';
+}
+
 /// The session ends here: what it holds, its map above all, makes room for the writing of the results.
 void observe_and_run(const RunFlags& flags, std::unique_ptr<Session> session, PartialPoses& partial, LiveView* view,
                      RunRecord& run) {
@@ -115,15 +129,18 @@ void observe_and_run(const RunFlags& flags, std::unique_ptr<Session> session, Pa
   MapPicture picture;
   std::optional<ViewFeed> feed;
   Pace pace;
+  UnusableSweeps unusable(run.config.preprocess);
   const bool picture_wanted = flags.map.empty() && !flags.out.empty() && !flags.no_report;
   session->add(check);
   if (flags.real_time) session->add(pace);
   session->add(partial);
   if (!flags.map.empty()) session->add(map);  // for the file; the report draws it, too
   if (picture_wanted) session->add(picture);
+  session->add(unusable);
   session->add(progress);
   if (view != nullptr) session->add(feed.emplace(*view));
   take(session->run(), run);
+  judge(flags, unusable, run);
   if (!flags.map.empty()) run.map = map.cloud(flags.map_normals);
   if (picture_wanted) run.map.points = picture.points();
 }

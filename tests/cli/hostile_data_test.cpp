@@ -1,5 +1,6 @@
 // Data that are malformed, missing or useless.
 #include <limits>
+#include <tuple>
 
 #include "cli/drives.hpp"
 #include "rilo/io/trajectory_files.hpp"
@@ -62,6 +63,28 @@ TEST(HostileData, SweepsOfMixedSizesRun) {
   const auto metrics = json::parse(rilo_succeeds({"run", drive, "--json"}).out);
   EXPECT_EQ(metrics["frames"], kDriveSweeps);
   EXPECT_GE(metrics["status"]["empty"], 1);
+}
+
+// Nothing but guesses is no success; the results are kept all the same.
+TEST(HostileData, SweepsWithoutAUsablePointSayWhy) {
+  const TempDir folder;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
+      {"mm", bytes_of<float>({9000, 0, 0, 0, 0, 9000, 0, 0}), "median range 9000.000 m"},
+      {"nan", bytes_of<float>({nan, nan, nan, 0}), "no finite points"},
+      {"none", "", "no points"}};
+  for (const auto& [name, bytes, why] : cases) {
+    for (int i = 0; i < 3; ++i) folder.write(name + "/" + std::to_string(i) + ".bin", bytes);
+    rilo_fails(3, {"run", folder / name, "--out", folder / "out", "--quiet"},
+               {"3 of 3 sweeps without a usable point", why, "kept: 3 sweeps"});
+    const json metrics = json_file(folder / "out" / "metrics.json");
+    EXPECT_EQ(metrics["status"]["empty"], 3);
+    EXPECT_NE(metrics["error"].get<std::string>().find(why), std::string::npos);
+  }
+  const auto drive = copy_of_drive(folder);
+  fs::remove_all(drive / "times_pt");
+  for (std::size_t i = 5; i < kDriveSweeps; ++i) fs::resize_file(sweep_file(drive, i), 0);
+  expect_parts(rilo_succeeds({"run", drive}).err, {"warning: 7 of 12 sweeps without a usable point", "no points"});
 }
 
 TEST(HostileData, PointTimesOfAnotherSize) {

@@ -46,12 +46,81 @@ TEST(InfoCommand, SaysWhetherPointsAreRaw) {
   expect_parts(rilo_succeeds({"info", folder / "compensated"}).out,
                {"compensated already", "--out results --point-times none\n"});
   EXPECT_EQ(rilo_succeeds({"info", folder / "raw", "--point-times", "none"}).out.find("motion  "), std::string::npos);
+  // Without times, what the run does is clear, too, and there is nothing to choose from.
+  for (const char* name : {"raw", "compensated"}) {
+    std::filesystem::remove_all(folder / name / "times_pt");
+    const std::string text = rilo_succeeds({"info", folder / name}).out;
+    expect_parts(text, {"with the times of their order", "finds out that", name});
+    EXPECT_EQ(text.find("--point-times"), std::string::npos) << text;
+  }
+}
+
+// A hundred and twenty sweeps of two points, 0.1 s apart, of which about fifty are looked at.
+std::filesystem::path many_sweeps(const TempDir& folder) {
+  std::string stamps;
+  for (int i = 0; i < 120; ++i) {
+    folder.write("many/velodyne/" + std::to_string(i) + ".bin", bytes_of<float>({1, 2, 3, 4, 5, 6, 7, 8}));
+    stamps += std::to_string(i / 10) + "." + std::to_string(i % 10) + "\n";
+  }
+  folder.write("many/times.txt", stamps);
+  return folder / "many";
+}
+
+TEST(InfoCommand, TheDurationIsThatOfAllSweeps) {
+  const TempDir folder;
+  const auto data = many_sweeps(folder);
+  expect_parts(rilo_succeeds({"info", data}).out, {"120 sweeps of bin", "for 11.9 s"});
+  const auto info = nlohmann::json::parse(rilo_succeeds({"info", data, "--json"}).out);
+  EXPECT_EQ(info["sweeps"], 120);
+  EXPECT_LT(info["sweeps_read"], 70);
+  EXPECT_NEAR(info["stamps"]["span_s"].get<double>(), 11.9, 1e-9);
+}
+
+TEST(InfoCommand, ASweepThatCannotBeReadIsNoGap) {
+  const TempDir folder;
+  const auto data = many_sweeps(folder);
+  folder.write("many/velodyne/7.bin", "cut");
+  const auto of = [&](const std::vector<std::string>& flags) {
+    std::vector<std::string> command = {"info", data, "--json"};
+    command.insert(command.end(), flags.begin(), flags.end());
+    return nlohmann::json::parse(rilo_succeeds(command).out);
+  };
+  const auto some = of({});  // without sweep 7
+  EXPECT_EQ(some["stamp_faults"]["gaps"], 0);
+  EXPECT_TRUE(some["warnings"].empty()) << some["warnings"];
+  EXPECT_EQ(of({"--all", "--skip-bad-sweeps"})["bad_sweeps"], 1);
+  rilo_fails(3, {"info", data, "--all"}, {"7.bin"});
+}
+
+TEST(InfoCommand, SaysWhyNoPointCanBeUsed) {
+  const TempDir folder;
+  folder.write("mm/0.bin", bytes_of<float>({9000, 0, 0, 0, 0, 9000, 0, 0}));
+  expect_parts(rilo_succeeds({"info", folder / "mm"}).out,
+               {"no point between 0.5 and 100 m", "median range 9000.000 m", "in metres?"});
+  const float nan = std::nanf("");
+  folder.write("nan/0.bin", bytes_of<float>({nan, nan, nan, 0}));
+  expect_parts(rilo_succeeds({"info", folder / "nan"}).out, {"warning       no finite points"});
+  folder.write("none/0.bin", "");
+  expect_parts(rilo_succeeds({"info", folder / "none"}).out, {"warning       no points", "1 sweep of bin"});
+}
+
+TEST(InfoCommand, ListsTheFieldsAndThoseThatMayHoldTimes) {
+  const TempDir folder;
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex 2\n";
+  for (const char* field : {"x", "y", "z", "ambient", "time_offset"})
+    ply += std::string("property float ") + field + "\n";
+  folder.write("data/0.ply", ply + "end_header\n1 2 3 4 0\n3 2 1 0 0.1\n");
+  const Outcome info = rilo_succeeds({"info", folder / "data"});
+  expect_parts(info.out, {"in the data: x y z ambient time_offset; not used: ambient time_offset",
+                          "field 'time_offset' is not used", "--time-field 'time_offset'   (if"});
+  expect_parts(rilo_succeeds({"info", folder / "data", "--time-field", "time_offset"}).out,
+               {"not used: ambient\n", "point times   field time_offset"});
 }
 
 TEST(InfoCommand, WithoutPointTimesItAsksWhetherThePointsAreRaw) {
   const TempDir folder;
   const Outcome in_order = rilo_succeeds({"info", long_folder(folder, 3)});
-  expect_parts(in_order.out, {"finds out", "--point-times order   (they are)", "--point-times none "});
+  expect_parts(in_order.out, {"--point-times order   (raw points)", "--point-times none "});
   folder.write("few/0.bin", bytes_of<float>({1, 2, 3, 4, 5, 6, 7, 8}));
   const Outcome few = rilo_succeeds({"info", folder / "few"});
   expect_parts(few.out, {"--point-times azimuth   (raw", "--point-times none "});

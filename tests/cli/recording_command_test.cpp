@@ -123,5 +123,22 @@ TEST(RecordingCommand, ATopicOfDataWithoutTopicsIsANote) {
   EXPECT_NE(info["warnings"].dump().find("--topic '/points' is ignored"), std::string::npos);
 }
 
+TEST(RecordingCommand, FieldsThatMayHoldTimesAreNamed) {
+  const TempDir folder;
+  std::vector<Recorded> messages;
+  for (const Sweep& sweep : numbered_sweeps(3)) {
+    CloudMessage message = message_of(sweep);
+    for (PointField& field : message.fields) {
+      if (field.name == "time") field.name = "GpsTime";
+    }
+    messages.push_back({"/points", sweep.stamp_ns, message_bytes(message, MessageEncoding::kCdr)});
+  }
+  const auto file = folder.write("drive.mcap", mcap_bytes({{"/points", kRos2Type}}, messages, {}));
+  expect_parts(rilo_succeeds({"info", file}).out,
+               {"x y z intensity GpsTime ring; not used: GpsTime", "--time-field 'GpsTime'   (if"});
+  expect_parts(rilo_succeeds({"run", file}).err, {"warning: field 'GpsTime' is not used", "--time-field GpsTime"});
+  expect_parts(rilo_succeeds({"info", file, "--time-field", "GpsTime"}).out, {"point times   field GpsTime"});
+}
+
 }  // namespace
 }  // namespace rilo::test

@@ -63,7 +63,7 @@ TEST(RunFlags, RawPointsWithoutTimesAreFoundOut) {
   const auto drive = folder / "drive";
   rilo_succeeds({"simulate", "--out", drive, "--sensor", "vlp16", "--sweeps", "25", "--start", "10", "--quiet"});
   std::filesystem::remove_all(drive / "times_pt");
-  EXPECT_THAT(rilo_succeeds({"info", drive}).out, testing::HasSubstr("--point-times order   (they are)"));
+  EXPECT_THAT(rilo_succeeds({"info", drive}).out, testing::HasSubstr("(finds out that the points are raw)"));
   const auto run = [&](const std::string& out, const std::vector<std::string>& flags) {
     std::vector<std::string> command = {"run", drive, "--out", folder / out, "--no-report"};
     command.insert(command.end(), flags.begin(), flags.end());
@@ -77,8 +77,15 @@ TEST(RunFlags, RawPointsWithoutTimesAreFoundOut) {
   const auto none = run("none", {"--point-times", "none", "--one-pass"});
   EXPECT_NE(none.second, poses);
   EXPECT_EQ(run("one", {"--one-pass"}), none);
-  EXPECT_TRUE(
-      json_file(folder / "auto" / "metrics.json")["point_times"].get<std::string>().starts_with("order of the points"));
+  const auto metrics = json_file(folder / "auto" / "metrics.json");
+  EXPECT_TRUE(metrics["point_times"].get<std::string>().starts_with("order of the points"));
+  EXPECT_EQ(metrics["compensation"]["raw"], true);
+  EXPECT_EQ(metrics["compensation"]["compensated"], false);
+  EXPECT_GE(metrics["compensation"]["sweeps"], 10);
+  EXPECT_LE(metrics["compensation"]["better"], metrics["compensation"]["sweeps"]);
+  EXPECT_FALSE(json_file(folder / "none" / "metrics.json").contains("compensation"));
+  rilo_succeeds({"run", drive, "--out", folder / "report", "--quiet"});
+  EXPECT_THAT(slurp(folder / "report" / "report.html"), testing::HasSubstr("order: taken as raw"));
 }
 
 TEST(RunFlags, AMapWithoutAFolderGoesIntoOutAndAStaleOneGoesAway) {

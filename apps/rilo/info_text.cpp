@@ -1,0 +1,142 @@
+#include "info_text.hpp"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "console/text.hpp"
+
+namespace rilo::cli {
+
+namespace {
+
+constexpr double kPartOfRevolution = 0.75;  // of the directions of all sweeps; a whole one sees nearly all of them
+
+std::string word(const nlohmann::json& value) { return value.get<std::string>(); }
+double real(const nlohmann::json& value) { return value.get<double>(); }
+std::size_t count(const nlohmann::json& value) { return value.get<std::size_t>(); }
+bool timed(const nlohmann::json& info) { return info["point_times"].contains("begin_s"); }
+std::string listed(const nlohmann::json& names) {
+  return fmt::format("{}", fmt::join(names.get<std::vector<std::string>>(), " "));
+}
+
+/// What to run next: one line where it is clear, else one for each case.
+std::string advice(const nlohmann::json& j) {
+  const std::string run = "rilo run " + shell_quoted(word(j["data"])) + " --out results";
+  const auto& trial = j["compensation"];
+  const bool compensated = !trial.is_null() && trial["compensated"].get<bool>();
+  const bool raw = !trial.is_null() && trial["raw"].get<bool>();
+  std::vector<std::string> lines;
+  for (const auto& field : j["time_field_candidates"]) {
+    lines.push_back(" --time-field " + shell_quoted(word(field)) + "   (if this field holds the points' times)");
+  }
+  if (timed(j)) {
+    lines.emplace_back(compensated ? " --point-times none" : "");
+  } else if (raw || compensated) {
+    lines.emplace_back(raw ? "   (finds out that the points are raw)" : "   (finds out that they are compensated)");
+  } else {
+    lines.emplace_back(j["point_times"]["in_order"].get<bool>() ? " --point-times order   (raw points)"
+                                                                : " --point-times azimuth   (raw points of a spinning "
+                                                                  "sensor)");
+    lines.emplace_back(" --point-times none   (points that are motion-compensated)");
+  }
+  std::string text;
+  for (const std::string& line : lines)
+    text += (text.empty() ? "to run it     " : "              ") + run + line + "\n";
+  return text;
+}
+
+std::string compensation_text(const nlohmann::json& j) {
+  const auto& trial = j["compensation"];
+  if (trial.is_null() || count(trial["sweeps"]) == 0) return "";
+  const bool raw = trial["raw"].get<bool>();
+  const bool compensated = trial["compensated"].get<bool>();
+  return fmt::format("motion        {} of {} fit better when their points are compensated with {}: {}\n",
+                     count(trial["better"]), counted(count(trial["sweeps"]), "sweep"),
+                     timed(j) ? "their times" : "the times of their order",
+                     raw           ? "raw points"
+                     : compensated ? "they are compensated already"
+                                   : "not certain");
+}
+
+}  // namespace
+
+std::string info_text(const nlohmann::json& j) {
+  std::string text = fmt::format("{}: {}, {} of {}\n", word(j["data"]), word(j["kind"]),
+                                 counted(count(j["sweeps"]), "sweep"), word(j["format"]));
+  if (!word(j["topic"]).empty()) {
+    text += fmt::format("topic         {}, frame {}\n", word(j["topic"]), word(j["frame_id"]));
+  }
+  const auto& points = j["points"];
+  text += fmt::format("points        min {} mean {:.0f} max {}, {} not finite (of {} read)\n", count(points["min"]),
+                      real(points["mean"]), count(points["max"]), count(points["not_finite"]),
+                      counted(count(j["sweeps_read"]), "sweep"));
+  if (!j["range_m"].is_null()) {
+    const auto& range = j["range_m"];
+    text += fmt::format("range         5 % {:.1f} m, median {:.1f} m, 95 % {:.1f} m, max {:.1f} m\n", real(range["p5"]),
+                        real(range["median"]), real(range["p95"]), real(range["max"]));
+  }
+  const auto& directions = j["directions"];
+  const auto one = count(directions["one_sweep_deg"]);
+  const auto all = count(directions["all_sweeps_deg"]);
+  text += fmt::format("directions    {}° in one sweep, {}° in all\n", one, all);
+  if (static_cast<double>(one) < kPartOfRevolution * static_cast<double>(all)) {
+    text +=
+        "warning       a sweep seems to hold part of a revolution: let the driver send whole ones, since neighbouring "
+        "parts\n              see different surroundings and begin map after map\n";
+  }
+  const auto& stamps = j["stamps"];
+  text +=
+      fmt::format("stamps        every {:.4f} s ({:.2f} Hz){}", real(stamps["period_s"]),
+                  1.0 / real(stamps["period_s"]), stamps["assumed"].get<bool>() ? " (assumed: the data has none)" : "");
+  if (stamps.contains("span_s")) {
+    text += fmt::format(", from {} s on for {:.1f} s", word(stamps["begin_s"]), real(stamps["span_s"]));
+  }
+  if (stamps.contains("gaps")) {
+    text +=
+        fmt::format(", {}, {} not increasing", counted(count(stamps["gaps"]), "gap"), count(stamps["not_increasing"]));
+  }
+  text += "\npoint times   " + word(j["point_times"]["source"]);
+  if (j["point_times"].contains("begin_s")) {
+    text += fmt::format(", {:.4f} … {:.4f} s", real(j["point_times"]["begin_s"]), real(j["point_times"]["end_s"]));
+  }
+  text += '\n' + compensation_text(j);
+  const int rings = j["rings"].get<int>();
+  text += fmt::format("fields        intensity: {}; ring: {}", j["intensity"].get<bool>() ? "yes" : "no",
+                      rings == 0 ? "no" : fmt::format("0 … {}", rings - 1));
+  if (!j["fields"].empty()) text += "; in the data: " + listed(j["fields"]);
+  if (!j["unused_fields"].empty()) text += "; not used: " + listed(j["unused_fields"]);
+  text += '\n';
+  text += fmt::format("calibration   {}\n", j["calibration"].get<bool>() ? "LiDAR to camera (Tr)" : "none");
+  const auto& truth = j["truth"];
+  if (truth.is_null()) {
+    text += "ground truth  none\n";
+  } else if (truth.contains("error")) {
+    text += "ground truth  cannot be read: " + word(truth["error"]) + "\n";
+  } else {
+    text += fmt::format("ground truth  {} ({}, {})\n", word(truth["file"]), counted(count(truth["poses"]), "pose"),
+                        word(truth["instant"]));
+  }
+  for (const auto& warning : j["warnings"]) text += "warning       " + word(warning) + "\n";
+  return text + advice(j);
+}
+
+std::string topics_text(const nlohmann::json& j) {
+  const auto data = word(j["data"]);
+  std::string text =
+      fmt::format("{}: recording with several topics of scans; --topic chooses one\n\n{:<32} {:<32} {:>8}  {}\n", data,
+                  "topic", "type", "messages", "frame");
+  std::string runs;
+  for (const auto& topic : j["topics"]) {
+    const auto name = word(topic["name"]);
+    const auto frame = word(topic["frame_id"]);
+    text += fmt::format("{:<32} {:<32} {:>8}  {}\n", name, word(topic["type"]),
+                        topic["messages"].is_null() ? "?" : topic["messages"].dump(), frame.empty() ? "–" : frame);
+    if (!topic["scans"].get<bool>()) continue;
+    runs += fmt::format("{}rilo run {} --topic {} --out results\n",
+                        runs.empty() ? "\nto run it     " : "              ", shell_quoted(data), shell_quoted(name));
+  }
+  return text + runs;
+}
+
+}  // namespace rilo::cli

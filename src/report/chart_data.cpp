@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -62,7 +63,11 @@ Json sweeps_of(const RunReport& run) {
                                   Json::array({"registration", time(&StageTimes::registration_ms)}),
                                   Json::array({"map update", time(&StageTimes::map_ms)})})},
           {"iterations", stat(&SweepStats::iterations)},
-          {"inliers", stat(&SweepStats::inlier_ratio)},
+          {"inliers", column(run.sweeps,
+                             [](const SweepResult& s) {
+                               return s.stats.iterations > 0 ? s.stats.inlier_ratio
+                                                             : std::numeric_limits<double>::quiet_NaN();
+                             })},
           {"sigma", stat(&SweepStats::sigma_th_m)},
           {"status", coded(run.sweeps, [](const SweepResult& s) { return s.status; })},
           {"initial", coded(run.sweeps, [](const SweepResult& s) { return s.stats.initial_pose; })},

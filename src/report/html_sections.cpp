@@ -52,7 +52,8 @@ std::string error_row(const char* name, const char* unit, const ErrorSummary& s,
 
 std::string accuracy_panel(const Evaluation& e) {
   std::string html =
-      "<section class=\"panel half\"><h3>Accuracy</h3><p class=\"caption\">Aligned: rigid motion without scale. "
+      "<section class=\"panel half\"><h3>Accuracy</h3><p class=\"caption\">Aligned: rigid motion without scale, of "
+      "the positions alone; along a straight path they leave the roll free, and with it the aligned angles. "
       "Unaligned: first poses made equal.</p><div class=\"scroll\" tabindex=\"0\"><table "
       "class=\"numbers\"><thead><tr><th></th>"
       "<th>rmse</th><th>mean</th><th>median</th><th>max</th></tr></thead><tbody>\n";
@@ -116,8 +117,11 @@ std::string sweep_panels(const RunReport& run) {
             chart_panel("histogram", "narrow", "Distribution of the time", "Sweeps by time, milliseconds.");
   }
   return html + chart_panel("status", "full", "Status and initial pose", "What the odometry said about each sweep.") +
-         chart_panel("strips", "full", "Registration, sweep by sweep",
-                     "Adaptive threshold σ_th, share of inliers and iterations of the fine registration.");
+         chart_panel(
+             "strips", "full", "Registration, sweep by sweep",
+             "Adaptive threshold σ_th, inliers per point and iterations of the fine registration. A point on no "
+             "plane may have three correspondences, so that there can be more inliers than points. No "
+             "registration, no inliers: the curve is interrupted.");
 }
 
 }  // namespace

@@ -66,6 +66,17 @@ TEST(HtmlReport, DataOfTheCharts) {
   EXPECT_GT(data["map"]["width"].get<int>(), 10);
 }
 
+// A share of 0 would say that all was wrong where nothing was tried.
+TEST(HtmlReport, WithoutARegistrationThereAreNoInliers) {
+  RunReport run = drive(10);
+  run.sweeps[0].stats.iterations = 0;
+  run.sweeps[0].stats.inlier_ratio = 0;
+  run.sweeps[1].stats.iterations = 3;
+  const auto inliers = data_of(page(run))[0]["sweeps"]["inliers"];
+  EXPECT_TRUE(inliers[0].is_null());
+  EXPECT_TRUE(inliers[1].is_number());
+}
+
 TEST(HtmlReport, EscapesEveryText) {
   RunReport run = drive(5);
   const std::string evil = "</script><script>alert('1')</script> & \"<u>\" <!-- \x01";

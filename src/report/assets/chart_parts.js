@@ -14,8 +14,8 @@ const stepOf = (span, count) => {
   const raw = span / Math.max(1, count), power = 10 ** Math.floor(Math.log10(raw));
   return power * [1, 2, 5, 10].find((m) => m * power >= raw * 0.999);
 };
-const ticks = (low, high, count) => {
-  const step = stepOf(high - low || 1, count), values = [];
+const ticks = (low, high, count, least = 0) => {
+  const step = Math.max(least, stepOf(high - low || 1, count)), values = [];
   for (let k = Math.ceil(low / step - 1e-6); k * step <= high + step * 1e-6; ++k) values.push(k * step);
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-6));
   return values.map((v) => ({ v, text: (Math.abs(v) < step / 2 ? 0 : v).toFixed(digits) }));
@@ -115,7 +115,7 @@ const axes = (host, o) => {
     svg += `<line class="gridline" x1="${m.left}" x2="${width - m.right}" y1="${px(sy(t.v))}" y2="${px(sy(t.v))}"/>` +
       `<text x="${m.left - 7}" y="${px(sy(t.v) + 4)}" text-anchor="end">${t.text}</text>`;
   }
-  for (const t of ticks(x0, x1, Math.max(2, w / 68))) {
+  for (const t of ticks(x0, x1, Math.max(2, w / 68), o.whole ? 1 : 0)) {
     svg += `<line class="gridline" x1="${px(sx(t.v))}" x2="${px(sx(t.v))}" y1="${m.top}" y2="${m.top + h}"/>` +
       `<text x="${px(sx(t.v))}" y="${m.top + h + 15}" text-anchor="middle">${t.text}</text>`;
   }
@@ -134,14 +134,14 @@ const mount = (host, head, svg, width, height, night) => {
 };
 
 // Curves over one axis. o: {height, x, xlabel, ylabel, series: [{name, y, color, digits, unit, truth, x, dash, width, dots}],
-// levels, zero, ymax, linked}. A series without x of its own has that of the chart.
+// levels, zero, ymax, linked, whole: x counts}. A series without x of its own has that of the chart.
 const curves = (run, host, o) => {
   let [y0, y1] = range(...o.series.map((s) => s.y));
   if (o.zero) y0 = Math.min(0, y0);
   if (finite(o.ymax)) y1 = Math.min(y1, o.ymax);
   const pad = (y1 - y0) * 0.06;
   const a = axes(host, {
-    height: o.height, xlabel: o.xlabel, ylabel: o.ylabel, zero: o.zero, xrange: range(o.x, ...o.series.map((s) => s.x || [])),
+    height: o.height, xlabel: o.xlabel, ylabel: o.ylabel, zero: o.zero, whole: o.whole, xrange: range(o.x, ...o.series.map((s) => s.x || [])),
     yrange: [o.zero && y0 === 0 ? 0 : y0 - pad, y1 + pad],
   });
   let svg = a.svg + (o.under ? o.under(a) : '');
@@ -204,8 +204,11 @@ const plane = (host, o) => {
   }
   if (o.paths.length) svg += `<circle cx="${px(sx(o.paths[0].p.x[0]))}" cy="${px(sy(o.paths[0].p.y[0]))}" r="5.5" fill="var(--ok)" stroke="${ring}" stroke-width="1.5"/>`;
   const bar = stepOf(width / scale * 0.22, 1) > width / scale * 0.4 ? stepOf(width / scale * 0.1, 1) : stepOf(width / scale * 0.2, 1);
-  svg += `<path class="scalebar" d="M14 ${height - 20}v6h${px(bar * scale)}v-6"/>` +
-    `<text class="strong" x="${px(14 + bar * scale / 2)}" y="${height - 22}" text-anchor="middle">${bar >= 1 ? bar : bar.toFixed(2)} m</text>`;
+  // In the left corner, unless the trajectory passes there.
+  const under = ({ p }) => p.x.some((x, i) => sx(x) < 28 + bar * scale && sy(p.y[i]) > height - 44);
+  const from = o.paths.some(under) ? width - 14 - bar * scale : 14;
+  svg += `<path class="scalebar" d="M${px(from)} ${height - 20}v6h${px(bar * scale)}v-6"/>` +
+    `<text class="strong" x="${px(from + bar * scale / 2)}" y="${height - 22}" text-anchor="middle">${bar >= 1 ? bar : bar.toFixed(2)} m</text>`;
   svg += '<circle class="dot" r="5" visibility="hidden"/>';
   const view = mount(host, o.legend, svg, width, height, o.night);
   const dot = view.svg.querySelector('.dot');

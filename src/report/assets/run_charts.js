@@ -78,7 +78,7 @@ const charts = {
       { name: 'max', value: `${show(s.max, 1)} ms` },
       ...(above.length ? [{ name: 'beyond the scale', value: String(above.length), color: 'var(--bad)', kind: 'box' }] : [])]);
     curves(run, host, {
-      height: 250, x: run.sweep, zero: true, ymax: top, levels, legend: head, xlabel: 'sweep', xname: (i) => `sweep ${i}`, linked: true,
+      height: 250, x: run.sweep, whole: true, zero: true, ymax: top, levels, legend: head, xlabel: 'sweep', xname: (i) => `sweep ${i}`, linked: true,
       series: [{ name: 'total', y: s.total, color: stages.length ? 'var(--text)' : 'var(--a)', digits: 1, unit: 'ms' }],
       under: (a) => stacked(a, run.sweep, stages),
       over: (a) => above.map((i) => `<path fill="var(--bad)" d="M${px(a.sx(i) - 4)} ${a.m.top + 7}h8l-4 -7z"/>`).join(''),
@@ -87,7 +87,7 @@ const charts = {
   histogram(run, host) {
     // The rare slow sweeps share the last bar, or they would leave no room for the others.
     const s = run.data.sweeps, low = range(s.total)[0], high = Math.min(s.max, 2 * s.p95);
-    const width = stepOf(Math.max(high - low, 1e-3), Math.min(30, Math.max(8, 1.5 * Math.sqrt(s.total.length))));
+    const width = stepOf(Math.max(high - low, 0.1 * high, 1e-3), Math.min(30, Math.max(8, 1.5 * Math.sqrt(s.total.length))));
     const first = Math.floor(low / width), last = Math.floor(high / width) - first;
     const counts = new Array(last + 1).fill(0);
     for (const v of s.total) if (finite(v)) ++counts[Math.min(Math.floor(v / width) - first, last)];
@@ -130,7 +130,7 @@ const charts = {
       head += legend(column.names.map((name, k) => ({ name: `${(name || 'unknown').replace(/_/g, ' ')}`, value: String(counts[k]), color: color(name), kind: 'box' })));
     });
     const bottom = 4 + rows.length * (band + gap);
-    for (const t of ticks(0, n, Math.max(2, w / 90))) svg += `<text x="${px(sx(t.v))}" y="${bottom + 8}" text-anchor="middle">${t.text}</text>`;
+    for (const t of ticks(0, n, Math.max(2, w / 90), 1)) svg += `<text x="${px(sx(t.v))}" y="${bottom + 8}" text-anchor="middle">${t.text}</text>`;
     svg += `<line class="cursor" y1="0" y2="${bottom - gap + 4}" visibility="hidden"/>`;
     const view = mount(host, head, svg, width, bottom + 14);
     const line = view.svg.querySelector('.cursor');
@@ -146,11 +146,11 @@ const charts = {
   },
   strips(run, host) {
     const s = run.data.sweeps;
-    const rows = [['σ_th (m)', s.sigma, 'var(--c)', 3, 'm'], ['inlier ratio', s.inliers, 'var(--b)', 3, ''], ['iterations', s.iterations, 'var(--a)', 0, '']];
+    const rows = [['σ_th (m)', s.sigma, 'var(--c)', 3, 'm'], ['inliers per point', s.inliers, 'var(--b)', 3, ''], ['iterations', s.iterations, 'var(--a)', 0, '']];
     host.innerHTML = rows.map(([title]) => `<p class="striptitle">${title}</p><div class="chart"></div>`).join('');
     const hosts = host.querySelectorAll('.chart');
     rows.forEach(([name, y, color, digits, unit], k) => curves(run, hosts[k], {
-      height: k === rows.length - 1 ? 132 : 112, x: run.sweep, zero: true, legend: '', xlabel: k === rows.length - 1 ? 'sweep' : '',
+      height: k === rows.length - 1 ? 132 : 112, x: run.sweep, whole: true, zero: true, legend: '', xlabel: k === rows.length - 1 ? 'sweep' : '',
       xname: (i) => `sweep ${i}`, linked: true, series: [{ name: name.replace(' (m)', ''), y, color, digits, unit }],
     }));
   },

@@ -77,10 +77,10 @@ QualityRun measure(const QualityFlags& flags) {
   }
   progress.finish();
   const MapQuality quality = meter.result();
-  return {
-      quality,
-      fmt::format("{}; {} poses, {} of {} sweeps have one", poses.protocol(), poses.size(), quality.sweeps, at.index),
-      source->info()};
+  return {quality,
+          fmt::format("{}; {}, {} of {} have one", poses.protocol(), counted(poses.size(), "pose"), quality.sweeps,
+                      counted(at.index, "sweep")),
+          source->info()};
 }
 
 void check_found(const QualityFlags& flags, const QualityRun& run) {

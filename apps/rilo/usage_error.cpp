@@ -41,6 +41,16 @@ std::string unexpected(const CLI::App& command, const std::vector<std::string>& 
   return left.empty() ? "" : "unexpected argument \"" + left.front() + "\"";
 }
 
+// A value that is optional has to be joined to its option.
+std::string detached_port(int argc, const char* const* argv) {
+  for (int i = 1; i + 1 < argc; ++i) {
+    const std::string_view port = argv[i + 1];
+    const bool number = !port.empty() && port.find_first_not_of("0123456789") == std::string_view::npos;
+    if (std::string_view(argv[i]) == "--view" && number) return "; the port is given as --view=" + std::string(port);
+  }
+  return "";
+}
+
 // In the order of the command line: CLI11 keeps them the other way round.
 std::vector<std::string> left_over(const CLI::App& app, int argc, const char* const* argv) {
   const std::vector<std::string> remaining = app.remaining(true);
@@ -71,7 +81,7 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
     text = "unknown subcommand \"" + std::string(argv[1]) + "\"" + suggestion(meant.empty() ? "" : "rilo " + meant);
   } else if (extras) {
     const std::string found = unexpected(*command, left_over(app, argc, argv));
-    if (!found.empty()) text = found;
+    if (!found.empty()) text = found + detached_port(argc, argv);
   }
   return text + (text.ends_with("?") ? " See: " : ". See: ") + name + " --help";
 }

@@ -1,4 +1,5 @@
-#include <set>
+#include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include <yaml-cpp/yaml.h>
@@ -32,12 +33,18 @@ void set_key(const ConfigKey& key, const std::string& text, const Place& place) 
   throw ConfigError({place.file, place.position, key.name() + " is " + quoted(text), key.expected(), ""});
 }
 
-// Values that are each in range and do not go together.
-void check_together(const OdometryConfig& config, const std::string& file) {
+using Positions = std::map<std::string, std::string>;  // of the keys of a file, by name
+
+// Values that are each in range and do not go together. One of them is in the file.
+void check_together(const OdometryConfig& config, const std::string& file, const Positions& positions) {
   try {
     validate(config);
   } catch (const std::invalid_argument& error) {
-    throw ConfigError({file, "", error.what(), "", ""});
+    const std::string what = error.what();
+    const auto named = std::find_if(positions.begin(), positions.end(), [&what](const auto& key) {
+      return what.find(key.first + " ") != std::string::npos || what.ends_with(key.first);
+    });
+    throw ConfigError({file, named == positions.end() ? "" : named->second, what, "", ""});
   }
 }
 
@@ -50,6 +57,8 @@ class Loader {
     if (!root.IsMap()) refuse(root, kind_of(root), "a map of keys");
     load_map(root, "");
   }
+
+  const Positions& positions() const { return seen_; }
 
  private:
   void load_map(const YAML::Node& map, const std::string& prefix) {
@@ -64,7 +73,7 @@ class Loader {
     const ConfigKey* key = keys_.find(name);
     if (key == nullptr && !keys_.has_section(name) && name != kExpertSection) refuse_key(keys_, name, place);
     // A section may come twice, among the user's keys and the expert ones; a key has one name.
-    if (!seen_.insert(key != nullptr ? key->name() : name).second) {
+    if (!seen_.emplace(key != nullptr ? key->name() : name, place.position).second) {
       throw ConfigError({file_, place.position, name + " is given a second time", "each key once", "Keep one of them"});
     }
     if (key == nullptr) {
@@ -84,7 +93,7 @@ class Loader {
 
   const ConfigKeys& keys_;
   std::string file_;
-  std::set<std::string> seen_;
+  Positions seen_;
 };
 
 }  // namespace
@@ -92,8 +101,9 @@ class Loader {
 OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base) {
   OdometryConfig config = base;
   const ConfigKeys keys = odometry_keys(config);
-  Loader(keys, name).load(detail::parse_yaml(yaml, name, kConfigHint));
-  check_together(config, name);
+  Loader loader(keys, name);
+  loader.load(detail::parse_yaml(yaml, name, kConfigHint));
+  check_together(config, name, loader.positions());
   return config;
 }
 
@@ -118,7 +128,7 @@ OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std:
     if (key == nullptr) refuse_key(keys, name, place);
     set_key(*key, text.substr(equals + 1), place);
   }
-  if (!overrides.empty()) check_together(config, origin);
+  if (!overrides.empty()) check_together(config, origin, {});
   return config;
 }
 

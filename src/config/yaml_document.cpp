@@ -1,6 +1,7 @@
 #include "config/yaml_document.hpp"
 
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <system_error>
 
@@ -13,13 +14,13 @@ namespace {
 
 constexpr std::size_t kLargestFile = std::size_t{1} << 20;
 
-/// Takes no notice of what a parser finds.
-class IgnoreEvents : public YAML::EventHandler {
+/// Takes no notice of what a parser finds, but of where the last document begins.
+class DocumentStart : public YAML::EventHandler {
  public:
   using Mark = YAML::Mark;
   using Anchor = YAML::anchor_t;
   using Style = YAML::EmitterStyle::value;
-  void OnDocumentStart(const Mark& /*mark*/) override {}
+  void OnDocumentStart(const Mark& mark) override { place = mark; }
   void OnDocumentEnd() override {}
   void OnNull(const Mark& /*mark*/, Anchor /*anchor*/) override {}
   void OnAlias(const Mark& /*mark*/, Anchor /*anchor*/) override {}
@@ -29,14 +30,17 @@ class IgnoreEvents : public YAML::EventHandler {
   void OnSequenceEnd() override {}
   void OnMapStart(const Mark& /*mark*/, const std::string& /*tag*/, Anchor /*anchor*/, Style /*style*/) override {}
   void OnMapEnd() override {}
+
+  Mark place;
 };
 
 /// YAML::LoadAll would do, but at a stray comma it adds documents until memory runs out (yaml-cpp 0.7).
-bool has_second_document(std::string_view yaml) {
+std::optional<YAML::Mark> second_document(std::string_view yaml) {
   std::istringstream stream{std::string(yaml)};
   YAML::Parser parser(stream);
-  IgnoreEvents ignore;
-  return parser.HandleNextDocument(ignore) && parser.HandleNextDocument(ignore);
+  DocumentStart start;
+  if (!parser.HandleNextDocument(start) || !parser.HandleNextDocument(start)) return std::nullopt;
+  return start.place;
 }
 
 }  // namespace
@@ -77,7 +81,9 @@ std::string read_yaml_file(const std::filesystem::path& file, const std::string&
 
 YAML::Node parse_yaml(std::string_view yaml, const std::string& name, const std::string& hint) {
   try {
-    if (has_second_document(yaml)) throw ConfigError({name, "", "a second document", "one document", ""});
+    if (const auto place = second_document(yaml)) {
+      throw ConfigError({name, position_of(*place), "a second document", "one document", ""});
+    }
     return YAML::Load(std::string(yaml));
   } catch (const YAML::Exception& error) {
     throw ConfigError(

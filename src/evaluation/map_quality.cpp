@@ -25,22 +25,25 @@ namespace {
 constexpr double kLeastVariance = 1e-12;   // m²: a micrometre; keeps the logarithm of a perfect plane finite
 constexpr double kMaxVoxelsOfRange = 1e6;  // what a voxel key can hold
 
-void check(bool sensible, const char* what) {
-  if (!sensible) throw std::invalid_argument(std::string("map quality: ") + what);
+void check(bool sensible, const std::string& what) {
+  if (!sensible) throw std::invalid_argument("map quality: " + what);
 }
 
 void check(const MapQualityConfig& c) {
-  check(c.sweep_step >= 1, "sweep_step must be at least 1");
+  check(c.sweep_step >= 1, "sweep_step (--sweep-step) must be at least 1");
   check(c.min_sweeps >= 1 && c.min_neighbours >= 4, "min_sweeps must be at least 1, min_neighbours at least 4");
   check(c.window_sweeps >= 2 && (c.window_sweeps - 1) / c.sweep_step + 1 >= c.min_sweeps,
-        "the window is too short: it must hold min_sweeps sweeps, a sweep_step apart");
-  check(c.radius_m > 0 && std::isfinite(c.radius_m), "radius_m must be positive");
+        "window_sweeps (--window) is " + std::to_string(c.window_sweeps) + "; it must be at least " +
+            std::to_string(std::max<std::size_t>(2, (c.min_sweeps - 1) * c.sweep_step + 1)) + ", to hold " +
+            std::to_string(c.min_sweeps) + " sweeps (min_sweeps), one of every " + std::to_string(c.sweep_step) +
+            " (sweep_step, --sweep-step)");
+  check(c.radius_m > 0 && std::isfinite(c.radius_m), "radius_m (--radius) must be positive");
   check(c.min_range_m >= 0 && c.max_range_m > c.min_range_m && std::isfinite(c.max_range_m),
-        "max_range_m must be larger than min_range_m");
+        "max_range_m (--max-range) must be larger than min_range_m (--min-range)");
   check(c.voxel_m == 0 || (c.voxel_m > 0 && c.max_range_m < kMaxVoxelsOfRange * c.voxel_m),
-        "voxel_m must be 0 or positive, and not less than a millionth of max_range_m");
+        "voxel_m (--voxel) must be 0 or positive, and not less than a millionth of max_range_m (--max-range)");
   check(c.points_per_sweep >= 1 && c.samples_per_window >= 1,
-        "points_per_sweep and samples_per_window must be positive");
+        "points_per_sweep (--points) and samples_per_window (--samples) must be positive");
   check(c.max_planar_ratio > 0, "max_planar_ratio must be positive");
   check(c.threads >= 0, "threads must not be negative");
 }

@@ -29,7 +29,7 @@ asio::ip::address numeric(const std::string& address) {
   auto parsed = asio::ip::make_address(address, error);
   if (error) {
     throw IoError(
-        {"--view-address", "", "'" + address + "'", "a numeric address such as 127.0.0.1, 0.0.0.0 or ::1", ""});
+        {"address of the viewer", "", "'" + address + "'", "a numeric address such as 127.0.0.1, 0.0.0.0 or ::1", ""});
   }
   return parsed;
 }

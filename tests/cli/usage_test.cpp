@@ -74,6 +74,8 @@ TEST(Usage, NamesTheWordThatIsWrongAndTheOneThatWasMeant) {
   rilo_fails(2, {"run", "d", "-o", "x"}, {"unknown option -o", "did you mean --out?"});
   rilo_fails(2, {"run", "d", "---"}, {"---"});
   rilo_fails(2, {"run", "d", "more"}, {"unexpected argument \"more\"", "rilo run --help"});
+  rilo_fails(2, {"run", "--view", "8080", "d"}, {"unexpected argument \"d\"", "--view=8080"});
+  rilo_fails(2, {"run", "d", "--view", "8080"}, {"unexpected argument \"8080\"", "--view=8080"});
   rilo_fails(2, {"bench", "show", "x", "--formatt", "csv"}, {"--formatt", "did you mean --format?", "rilo bench show"});
   rilo_fails(2, {"run", "d", "--count", "-3"}, {"\"-3\" is not a non-negative integer"});
   rilo_fails(2, {"run", "d", "--threads", "-3"}, {"\"-3\" is not an integer from 0 to 1024"});

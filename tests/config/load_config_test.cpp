@@ -138,7 +138,9 @@ TEST(LoadConfig, numbers_out_of_range_and_nan_are_refused) {
 
 TEST(LoadConfig, values_that_contradict_each_other_are_refused) {
   EXPECT_THAT(config_message("preprocess: {min_range_m: 60, max_range_m: 50}"),
-              AllOf(HasSubstr("my.yaml"), HasSubstr("max_range_m")));
+              AllOf(HasSubstr("my.yaml"), HasSubstr("max_range_m"), HasSubstr("line 1, column 31")));
+  EXPECT_THAT(config_message("threads: 1\npreprocess:\n  min_range_m: 160\n"),
+              AllOf(HasSubstr("max_range_m"), HasSubstr("line 3, column 3")));
   EXPECT_THAT(override_message({"map.max_points=4"}), HasSubstr("map.max_points"));
   EXPECT_EQ(override_message({"map.max_points=4", "map.min_points=3"}), "accepted");
 }
@@ -146,7 +148,8 @@ TEST(LoadConfig, values_that_contradict_each_other_are_refused) {
 TEST(LoadConfig, text_that_is_no_yaml_or_more_than_one_document_is_refused_with_its_place) {
   EXPECT_THAT(config_message("icp: {gate: 3\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(config_message("a: b: c"), AllOf(HasSubstr("my.yaml"), HasSubstr("line 1")));
-  EXPECT_THAT(config_message("threads: 1\n---\nthreads: 2\n"), HasSubstr("second document"));
+  EXPECT_THAT(config_message("threads: 1\n---\nthreads: 2\n"),
+              AllOf(HasSubstr("second document"), HasSubstr("line 2, column 1")));
 }
 
 TEST(Overrides, the_last_one_wins_and_mistakes_name_the_option) {

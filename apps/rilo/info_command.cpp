@@ -235,7 +235,19 @@ nlohmann::json describe(const InfoFlags& flags, ScanSource& source) {
   return json;
 }
 
-void print_info(const InfoFlags& flags) {
+/// Those that were given, of add_source_flags().
+std::string source_options(const CLI::App& command) {
+  std::string text;
+  for (const CLI::Option* option : command.get_options([](const CLI::Option* given) { return given->count() > 0; })) {
+    const std::string name = option->get_name();
+    if (name == "DATA" || name == "--json" || name == "--all") continue;
+    text += " " + name;
+    if (option->get_items_expected_max() > 0) text += " " + shell_quoted(option->results().back());
+  }
+  return text;
+}
+
+void print_info(const InfoFlags& flags, const std::string& options_text) {
   std::unique_ptr<ScanSource> source;
   SourceOptions options = flags.source.options;
   options.read_ahead = 0;  // it would read the sweeps that are skipped
@@ -248,7 +260,7 @@ void print_info(const InfoFlags& flags) {
     return;
   }
   const nlohmann::json json = describe(flags, *source);
-  std::cout << (flags.json ? json_text(json) : info_text(json));
+  std::cout << (flags.json ? json_text(json) : info_text(json, options_text));
 }
 
 }  // namespace
@@ -261,8 +273,8 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->add_flag("--all", flags->all, "read every sweep (counts gaps in the stamps too) instead of about fifty");
   command->add_flag("--json", flags->json, "print JSON");
   add_source_flags(*command, flags->source);
-  command->callback([flags, &exit_code] {
-    print_info(*flags);
+  command->callback([flags, command, &exit_code] {
+    print_info(*flags, source_options(*command));
     exit_code = kSuccess;
   });
 }

@@ -21,11 +21,12 @@ std::string listed(const nlohmann::json& names) {
 }
 
 /// What to run next: one line where it is clear, else one for each case.
-std::string advice(const nlohmann::json& j) {
-  const std::string run = "rilo run " + shell_quoted(word(j["data"])) + " --out results";
+std::string advice(const nlohmann::json& j, const std::string& options) {
+  const std::string run = "rilo run " + shell_quoted(word(j["data"])) + options + " --out results";
   const auto& trial = j["compensation"];
   const bool compensated = !trial.is_null() && trial["compensated"].get<bool>();
   const bool raw = !trial.is_null() && trial["raw"].get<bool>();
+  if (options.find("--point-times") != std::string::npos) return "to run it     " + run + "\n";
   std::vector<std::string> lines;
   for (const auto& field : j["time_field_candidates"]) {
     lines.push_back(" --time-field " + shell_quoted(word(field)) + "   (if this field holds the points' times)");
@@ -61,7 +62,7 @@ std::string compensation_text(const nlohmann::json& j) {
 
 }  // namespace
 
-std::string info_text(const nlohmann::json& j) {
+std::string info_text(const nlohmann::json& j, const std::string& options) {
   std::string text = fmt::format("{}: {}, {} of {}\n", word(j["data"]), word(j["kind"]),
                                  counted(count(j["sweeps"]), "sweep"), word(j["format"]));
   if (!word(j["topic"]).empty()) {
@@ -118,7 +119,7 @@ std::string info_text(const nlohmann::json& j) {
                         word(truth["instant"]));
   }
   for (const auto& warning : j["warnings"]) text += "warning       " + word(warning) + "\n";
-  return text + advice(j);
+  return text + advice(j, options);
 }
 
 std::string topics_text(const nlohmann::json& j) {

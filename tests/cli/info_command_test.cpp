@@ -55,6 +55,13 @@ TEST(InfoCommand, SaysWhetherPointsAreRaw) {
   }
 }
 
+TEST(InfoCommand, TheAdviceKeepsTheOptions) {
+  const std::string run = "to run it     rilo run '" + shared_drive().string() + "'";
+  expect_parts(rilo_succeeds({"info", shared_drive(), "--all", "--point-times", "azimuth", "--skip-bad-sweeps"}).out,
+               {run + " --point-times 'azimuth' --skip-bad-sweeps --out results\n"});
+  expect_parts(rilo_succeeds({"info", shared_drive()}).out, {run + " --out results\n"});
+}
+
 // A hundred and twenty sweeps of two points, 0.1 s apart, of which about fifty are looked at.
 std::filesystem::path many_sweeps(const TempDir& folder) {
   std::string stamps;

@@ -75,7 +75,7 @@ void check_plausible(const std::filesystem::path& file, const std::string& field
   throw IoError(
       {file, "",
        std::to_string(absurd) + " of " + std::to_string(cloud.points.size()) + " points are farther than 1000 km",
-       "float32 records of " + fields, "Set bin_fields to the columns that the file has"});
+       "float32 records of " + fields, "Set bin_fields (--bin-fields) to the columns that the file has"});
 }
 
 }  // namespace

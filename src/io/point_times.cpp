@@ -52,7 +52,8 @@ double seconds_per(PointTimeUnit unit, double period_s) {
 std::string number(double value) { return fmt::format("{:.10g}", value); }
 
 constexpr const char* kSetUnit =
-    "Set point_time_unit to s, ms, us, ns or fraction, or point_times to none to go without";
+    "Set point_time_unit (--point-time-unit) to s, ms, us, ns or fraction, or point_times (--point-times) to none to "
+    "go without";
 
 // Float32 cannot hold absolute seconds: 1.6e9 s comes in steps of 128 s.
 void check_resolution(const TimeField& field) {
@@ -60,7 +61,7 @@ void check_resolution(const TimeField& field) {
   const double step = field.farthest() * std::numeric_limits<float>::epsilon();
   if (step <= 0.01 * field.span() || field.farthest() <= 1) return;
   field.reject("steps far below the span; float32 has steps of " + number(step) + " there",
-               "Record the times as float64, or set point_times to none or azimuth");
+               "Record the times as float64, or set point_times (--point-times) to none or azimuth");
 }
 
 // Some names have one meaning in the field: Ouster's t and Livox' offset_time are ns.
@@ -125,7 +126,7 @@ void check_told_unit(const TimeField& field, PointTimeUnit told, const std::opti
   if (!fitting) return;
   field.reject("in " + std::string(to_string(told)) + ", as point_time_unit says, " + length.text() +
                    "; the span is one in " + std::string(to_string(*fitting)),
-               "Set point_time_unit to " + std::string(to_string(*fitting)) + ", or leave it out");
+               "Set point_time_unit (--point-time-unit) to " + std::string(to_string(*fitting)) + ", or leave it out");
 }
 
 PointTimeUnit unit_of(const TimeField& bulk, const PointTimeHints& hints) {
@@ -137,7 +138,7 @@ PointTimeUnit unit_of(const TimeField& bulk, const PointTimeHints& hints) {
 [[noreturn]] void reject_wrapping(const TimeField& field) {
   field.reject(
       "less than " + number(kFarthestFromStamp) + " s from the sweep's stamp, since 32 bits of ns wrap after 4.3 s",
-      "Set point_time_reference to stamp or epoch, or point_times to none");
+      "Set point_time_reference (--point-time-reference) to stamp or epoch, or point_times (--point-times) to none");
 }
 
 bool wraps(const TimeField& field, PointTimeUnit unit) {
@@ -149,8 +150,9 @@ PointTimeReference infer_reference(const TimeField& field, PointTimeUnit unit, d
   if (farthest_s <= kFarthestFromStamp) return PointTimeReference::kStamp;
   if (wraps(field, unit)) reject_wrapping(field);
   if (field.least() * scale < kFarthestFromStamp) {
-    field.reject("times around 0 (from the stamp) or all far from it (from an epoch)",
-                 "Set point_time_reference to stamp or epoch, or point_times to none");
+    field.reject(
+        "times around 0 (from the stamp) or all far from it (from an epoch)",
+        "Set point_time_reference (--point-time-reference) to stamp or epoch, or point_times (--point-times) to none");
   }
   return PointTimeReference::kEpoch;
 }
@@ -166,7 +168,8 @@ std::string describe(const TimeField& field, const PointTimeConvention& conventi
 std::int64_t epoch_stamp_ns(const TimeField& field, double scale) {
   const double stamp_s = field.least() * scale;
   if (std::abs(stamp_s) > 9.2e9) {
-    field.reject("stamps that fit into 64 bits of ns", "Set point_time_unit to the unit of the times");
+    field.reject("stamps that fit into 64 bits of ns",
+                 "Set point_time_unit (--point-time-unit) to the unit of the times");
   }
   if (is_floating(field.raw().type)) return std::llround(field.least() * (scale * 1e9));
   return field.raw().integers[field.first()] * static_cast<std::int64_t>(std::llround(scale * 1e9));
@@ -186,7 +189,8 @@ void check_against(const TimeField& field, const PointTimeConvention& convention
       field.farthest() * scale > kFarthestFromStamp) {
     field.reject("at most " + number(kFarthestFromStamp) + " s from the sweep's stamp, in " +
                      std::string(to_string(convention.unit)),
-                 "Set point_time_reference to epoch, point_time_unit to the right unit, or point_times to none");
+                 "Set point_time_reference (--point-time-reference) to epoch, point_time_unit (--point-time-unit) to "
+                 "the right unit, or point_times (--point-times) to none");
   }
 }
 

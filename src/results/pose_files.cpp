@@ -129,7 +129,7 @@ PoseFile read_poses(const std::filesystem::path& file) {
   if (count == kKittiNumbers) return without_stamps(file, read_kitti_poses(file));
   if (count == 0) throw IoError({file, "", "no pose", "a pose file, KITTI or TUM form", "Check the path"});
   throw IoError({file, "first line", fmt::format("{} words", count), "12 numbers (KITTI form) or 8 (TUM form)",
-                 "Give a pose file"});
+                 "Give a pose file, of the results of a run trajectory.tum or poses_lidar.txt"});
 }
 
 PoseFile read_truth(const std::filesystem::path& path, PoseInstant instant) {

@@ -185,7 +185,10 @@ class RecordingSource final : public ScanSource {
 
   // The sweeps of one sensor do not fit the map of another.
   void check_sensor(const CloudMessage& cloud, const std::string& part) {
-    if (sensor_.empty()) sensor_ = cloud.sensor;
+    if (sensor_.empty()) {
+      sensor_ = cloud.sensor;
+      info_.frame_id = cloud.frame_id;
+    }
     if (cloud.sensor == sensor_) return;
     throw IoError({file_, part, "points of " + cloud.sensor + " after some of " + sensor_, "one sensor in a topic",
                    "Record each sensor on a topic of its own; where bad sweeps are skipped, the first one's are used"});

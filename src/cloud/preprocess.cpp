@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kBeamSample = 4000;  // points: enough for 128 beams at little cost
 constexpr std::size_t kPhaseStep = 7;      // prime: the samples of successive sweeps differ
-constexpr double kMostGrowth = 1.4;        // of the voxel in a sweep, as if half of the points were missing
+constexpr double kMostGrowth = 1.15;       // of the voxel in a sweep: its number of points changes by a third
 constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz
 
 void find_angles(const BeamAngles& of, std::span<const Beam> beams, PointBlock::Lanes<float>& elevation_rad,

@@ -11,7 +11,10 @@ namespace rilo {
 
 namespace {
 constexpr std::size_t kRememberedPoses = 3;  // (III-B)
-constexpr double kStaleSteps = 3.0;          // after a loss this long the motion before is no evidence
+// Of the parabola through the last three velocities, whose whole would take their noise for motion (experiment: change
+// of the acceleration).
+constexpr double kCurvature = 0.5;
+constexpr double kStaleSteps = 3.0;  // after a loss this long the motion before is no evidence
 
 Matrix6d velocity_covariance_of(const IcpResult& icp) {
   const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());
@@ -28,7 +31,14 @@ void MotionTracker::advance(const SweepTime& time) {
 MotionState MotionTracker::predicted(double sigma_th_m) const {
   MotionState state{predict_pose(past_, now_ns_, sigma_th_m, prediction_config_), trusted_state_.twist};
   if (past_.size() > 1 && !lost_) {
-    state.earlier = {trusted_state_.twist, since_trusted_s()};
+    const double lag_s = since_trusted_s();
+    state.earlier = {trusted_state_.twist, lag_s};
+    const double lag_before_s = trusted_state_.earlier.lag_s;
+    // Along a direction that is not observed the velocity says nothing of its changes.
+    if (lag_before_s > 0.0 && !degenerate_) {
+      state.earlier.acceleration = trusted_state_.mean_acceleration();
+      state.earlier.share = kCurvature * lag_s / (lag_s + lag_before_s);
+    }
   }
   return state;
 }

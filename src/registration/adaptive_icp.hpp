@@ -20,8 +20,10 @@ namespace rilo {
 
 /// Velocity of the sensor before.
 struct EarlierVelocity {
-  Vector6d twist = Vector6d::Zero();  ///< body velocity [rad/s; m/s]
-  double lag_s = 0;                   ///< so long before; 0: not known
+  Vector6d twist = Vector6d::Zero();         ///< body velocity [rad/s; m/s]
+  double lag_s = 0;                          ///< so long before; 0: not known
+  Vector6d acceleration = Vector6d::Zero();  ///< until then [rad/s²; m/s²]
+  double share = 0;  ///< of the change from that acceleration to the one since then goes on; 0: not known
 };
 
 /// Pose and velocity of the sensor at the reference time of a sweep.
@@ -30,13 +32,16 @@ struct MotionState {
   Vector6d twist = Vector6d::Zero();  ///< body velocity [rad/s; m/s]
   EarlierVelocity earlier = {};       ///< from which it changed steadily
 
-  /// During the sweep, at the acceleration since the earlier velocity: none where that is not known.
+  /// Mean acceleration since the earlier velocity [rad/s²; m/s²]; 0 where that is not known.
+  Vector6d mean_acceleration() const {
+    return earlier.lag_s > 0.0 ? Vector6d((twist - earlier.twist) / earlier.lag_s) : Vector6d(Vector6d::Zero());
+  }
+
+  /// During the sweep, at the acceleration since the earlier velocity and what of its own change goes on: none where
+  /// that is not known.
   BodyMotion motion() const {
-    BodyMotion motion{twist};
-    if (earlier.lag_s > 0.0) {
-      motion.acceleration = (twist - earlier.twist) / earlier.lag_s;
-    }
-    return motion;
+    const Vector6d mean = mean_acceleration();
+    return {twist, mean + earlier.share * (mean - earlier.acceleration)};
   }
 
   /// The velocity along the axes of the odometry frame, as perturbations are.
@@ -48,7 +53,8 @@ struct MotionState {
 
   /// Derivative (s) of the motion to `offset_s` by the velocity, with which the acceleration changes, too.
   double velocity_lever_s(double offset_s) const {
-    return earlier.lag_s > 0.0 ? offset_s + 0.5 * offset_s * offset_s / earlier.lag_s : offset_s;
+    const double growth = 1.0 + earlier.share;
+    return earlier.lag_s > 0.0 ? offset_s + 0.5 * growth * offset_s * offset_s / earlier.lag_s : offset_s;
   }
 };
 

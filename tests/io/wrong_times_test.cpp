@@ -136,8 +136,8 @@ TEST(WrongTimesTest, AToldUnitThatCannotBe) {
   };
   Sweep sweep = sweep_of();
   expect_io_error([&] { told(Unit::kNanoseconds).decode(times(0, 0.1), "a", sweep); },
-                  {"in ns", "point_time_unit to s"});
-  expect_io_error([&] { told(Unit::kSeconds).decode(times(0, 1), "a", sweep); }, {"point_time_unit to fraction"});
+                  {"in ns", "(--point-time-unit) to s"});
+  expect_io_error([&] { told(Unit::kSeconds).decode(times(0, 1), "a", sweep); }, {"(--point-time-unit) to fraction"});
   EXPECT_NO_THROW(told(Unit::kSeconds).decode(times(0, 0.001), "a", sweep));
 }
 

@@ -58,6 +58,26 @@ TEST(MotionTracker, ASweepAcceleratesFromTheOneBefore) {
   EXPECT_EQ(tracker.predicted(0.3).earlier.lag_s, 0.0) << "lost";
 }
 
+TEST(MotionTracker, AQuarterOfTheChangeOfTheAccelerationGoesOn) {
+  MotionTracker tracker({}, {}, {});
+  tracker.begin({});
+  tracker.advance(after(kStepNs));
+  tracker.accept(at(1.0), MotionVerdict::kPossible, false);
+  tracker.advance(after(kStepNs));
+  IcpResult second = at(2.0);
+  second.state.earlier = tracker.predicted(0.3).earlier;
+  second.state.twist[3] += 1.0;  // 10 m/s²
+  tracker.accept(second, MotionVerdict::kPossible, false);
+  tracker.advance(after(kStepNs));
+  MotionState state = tracker.predicted(0.3);
+  state.twist[3] += 2.0;  // 20 m/s²
+  EXPECT_NEAR(state.motion().acceleration[3], 22.5, 1e-9);
+  tracker.advance(after(2 * kStepNs));  // three steps after the second sweep
+  state = tracker.predicted(0.3);
+  state.twist[3] += 2.0;
+  EXPECT_NEAR(state.motion().acceleration[3], 20.0 / 3 + 0.375 * (20.0 / 3 - 10.0), 1e-9);
+}
+
 TEST(MotionTracker, AStampThatMayBeLateRefutesNoMotion) {
   const SE3 next = at(3.0).state.T_odom_lidar;
   MotionTracker tracker = driving();

@@ -108,7 +108,7 @@ TEST(PointToPlaneJacobian, PoseIsExactAndVelocityOfFirstOrderInMotion) {
 
 TEST(PointToPlaneJacobian, TheAccelerationChangesWithTheVelocity) {
   Scene scene(Vector6d::Zero());
-  scene.state.earlier = {twist(0.05, 0.02, -0.1, 0.3, 0.1, -0.2), 0.1};
+  scene.state.earlier = {twist(0.05, 0.02, -0.1, 0.3, 0.1, -0.2), 0.1, twist(0.3, -0.2, 0.1, 1.0, 0.5, -0.4), 0.25};
   const AdaptiveIcpConfig config;
   const NormalEquations sums = linearise(scene.cloud, scene.map, scene.state, kSigmaM, config);
   const Sums numeric = numeric_sums(scene.cloud, scene.map, scene.state, config.gate * kSigmaM, true);

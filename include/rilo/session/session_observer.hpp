@@ -19,7 +19,7 @@ struct RegisteredSweep {
   std::size_t index;          ///< place in the data (ScanSource::current_index)
   const Sweep& sweep;         ///< as read
   const SweepResult& result;  ///< its pose and statistics
-  const Odometry& odometry;   ///< right after it: last_map_points() are those of this sweep
+  const Odometry& odometry;   ///< right after it; last_map_points(): of the last sweep that went into a map
 };
 
 /// The second pass begins: everything before is forgotten.

@@ -44,7 +44,7 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
       search.to_map(initial, prior, parts.sigma_th_m, refuted ? search.icp() : parts.config.icp, search.end());
   if (parts.tracker.lost() && !parts.contradicted) {
     // The quality within the wide gate is not that within the usual one, and nothing speaks for another place.
-    const Registration usual = held(parts, search, found);
+    Registration usual = held(parts, search, found);
     if (!parts.initial_pose.suspicious(usual.quality) && !newly_degenerate(parts, usual)) {
       return usual;
     }

@@ -125,7 +125,7 @@ TEST(Elevation, TheGradientAgreesWithDifferences) {
 }
 
 /// A room as a sensor sees it whose elevation angles are 0.3° too small.
-std::vector<Eigen::Vector3f> room_seen_low(SceneSampling sampling) {
+std::vector<Eigen::Vector3f> room_seen_low(const SceneSampling& sampling) {
   std::vector<Eigen::Vector3f> points = make_box_room({9.3, 7.1, 3.3}, sampling);
   for (Eigen::Vector3f& p : points) {
     p = ElevationRotation(-0.3 * kDegree)(p);

@@ -86,7 +86,7 @@ class RecordingsInTurn final : public Recording {
       add_topics(current_->topics());
       keep_warnings();
     }
-    if (opened.empty()) throw *failure;
+    if (opened.empty()) throw IoError(*failure);
     files_ = std::move(opened);
   }
 

@@ -5,7 +5,6 @@
 #include "io/cloud_columns.hpp"
 #include "io/file_bytes.hpp"
 #include "io/packets/packet_source.hpp"
-#include "io/ros/cloud_fields.hpp"
 #include "io/ros/recording_source.hpp"
 #include "io/scan_listing.hpp"
 #include "io/source_wrappers.hpp"
@@ -42,22 +41,18 @@ std::unique_ptr<detail::Recording> recording_in_file(const fs::path& file) {
 }
 
 std::unique_ptr<ScanSource> open_folder(const fs::path& folder, const SourceOptions& options) {
-  std::error_code ignored;
-  if (fs::is_directory(folder / "velodyne", ignored)) {
-    return detail::open_files(detail::list_sequence(folder, options), options);
+  if (detail::sweep_folder(folder) == folder) {
+    if (auto recording = recording_in_folder(folder)) {
+      return detail::open_recording(folder, std::move(recording), options);
+    }
   }
-  if (detail::is_kitti_raw(folder)) return detail::open_files(detail::list_kitti_raw(folder, options), options);
-  if (detail::is_mulran(folder)) return detail::open_files(detail::list_mulran(folder, options), options);
-  if (auto recording = recording_in_folder(folder)) {
-    return detail::open_with_fields(folder, std::move(recording), options);
-  }
-  return detail::open_files(detail::list_plain_folder(folder, options), options);
+  return detail::open_files(detail::list_folder(folder, options), options);
 }
 
 std::unique_ptr<ScanSource> open_file(const fs::path& file, const SourceOptions& options) {
   const std::string extension = extension_of(file);
   if (extension == ".pcap" || extension == ".pcapng") return detail::open_capture(file, options);
-  if (auto recording = recording_in_file(file)) return detail::open_with_fields(file, std::move(recording), options);
+  if (auto recording = recording_in_file(file)) return detail::open_recording(file, std::move(recording), options);
   return detail::open_files(detail::list_single_file(file, options), options);
 }
 

@@ -216,8 +216,7 @@ std::string warning_of(const TimeField& field, double scale, std::size_t outside
   if (outside > 0) {
     return fmt::format(
         "{}: {} of {} points have times too far from those of the others to be of the same sweep: they are not used, "
-        "nor "
-        "are any in later sweeps",
+        "nor are such in later sweeps",
         field.file().string(), outside, field.raw().size());
   }
   const double span_s = field.span() * scale;

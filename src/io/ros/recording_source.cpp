@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "io/cloud_columns.hpp"
 #include "io/ros/driver_messages.hpp"
 #include "io/ros/scan_topic.hpp"
 #include "io/scan_listing.hpp"
@@ -24,8 +25,15 @@ struct CloudMessage {
   std::optional<std::int64_t> stamp_ns;
   std::string frame_id;
   RawCloud cloud;
-  std::string sensor;  // what tells the sensors of one topic apart
+  std::string sensor;             // what tells the sensors of one topic apart
+  std::vector<FieldInfo> fields;  // of a PointCloud2
 };
+
+std::vector<FieldInfo> fields_of(const PointCloud2& cloud, const std::string& time_field) {
+  std::vector<Field> fields;
+  for (const PointField& field : cloud.fields) fields.push_back({field.name});
+  return describe_fields(fields, find_roles(fields, time_field, {}));
+}
 
 // Stamp and frame are set even when it throws because of the points.
 void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, const std::string& time_field,
@@ -33,7 +41,7 @@ void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, con
   if (scan_form(topic) == ScanForm::kLivoxCustom) {
     LivoxMessage livox = parse_livox(message.bytes, encoding_of(topic), message.file, part);
     const std::string sensor = "LiDAR " + std::to_string(livox.lidar_id) + " in frame " + in_quotes(livox.frame_id);
-    into = {livox.stamp_ns, std::move(livox.frame_id), std::move(livox.cloud), sensor};
+    into = {livox.stamp_ns, std::move(livox.frame_id), std::move(livox.cloud), sensor, {}};
     return;
   }
   PointCloud2 parsed;
@@ -43,6 +51,7 @@ void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, con
   into.frame_id = cloud.frame_id;
   into.sensor = "frame " + in_quotes(cloud.frame_id);
   into.cloud = columns_of(cloud, time_field, message.file, part);
+  into.fields = fields_of(cloud, time_field);
 }
 
 PointTimeHints hints_of(const RecordedTopic& topic, const SourceOptions& options) {
@@ -140,6 +149,7 @@ class RecordingSource final : public ScanSource {
         info_.frame_id = cloud.frame_id;
       }
       if (cloud.sensor != sensor_) continue;
+      if (info_.fields.empty()) info_.fields = std::move(cloud.fields);
       stamps.push_back(*cloud.stamp_ns);
       received.push_back(received_ns);
       if (!cloud.cloud.times) continue;

@@ -17,6 +17,8 @@ namespace {
 using test::SweepsSource;
 
 constexpr std::size_t kTrialSweeps = 30;
+// Of them are compared: those that the run without times begins its map with, or loses, are not.
+constexpr std::size_t kLeastCompared = 24;
 constexpr double kPeriodS = 0.1;
 
 struct Drive {
@@ -77,15 +79,15 @@ double error_at_end_m(const SessionResult& run, const Drive& drive) {
 
 TEST(CompensationTrial, RawPointsFitBetter) {
   const CompensationTrial trial = trial_of(raw().sweeps);
-  EXPECT_EQ(trial.sweeps, kTrialSweeps - 3);
-  EXPECT_GE(trial.better, 25U);
+  EXPECT_GE(trial.sweeps, kLeastCompared);
+  EXPECT_GE(10 * trial.better, 9 * trial.sweeps);
   EXPECT_TRUE(trial.raw());
 }
 
 TEST(CompensationTrial, CompensatedOnesDoNot) {
   const CompensationTrial trial = trial_of(compensated().sweeps);
-  EXPECT_EQ(trial.sweeps, kTrialSweeps - 3);
-  EXPECT_LE(trial.better, 9U);
+  EXPECT_GE(trial.sweeps, kLeastCompared);
+  EXPECT_LE(10 * trial.better, 3 * trial.sweeps);
   EXPECT_FALSE(trial.raw());
   EXPECT_TRUE(trial.compensated());
 }

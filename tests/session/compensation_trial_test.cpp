@@ -17,7 +17,7 @@ namespace {
 using test::SweepsSource;
 
 constexpr std::size_t kTrialSweeps = 30;
-// Of them are compared: those that the run without times begins its map with, or loses, are not.
+// So many of them are compared at least: not those that begin a map, or are lost.
 constexpr std::size_t kLeastCompared = 24;
 constexpr double kPeriodS = 0.1;
 

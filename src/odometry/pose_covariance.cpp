@@ -50,7 +50,9 @@ Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6
     result += left * left.transpose();
   }
 
-  // The points are compensated for the mean acceleration since the sweep before, which is that of half a sweep ago.
+  // The points are compensated for the mean acceleration since the sweep before, which is that of half a sweep ago. A
+  // part of its change goes on (EarlierVelocity::share); half of it counts all the same, as the handheld drives ask
+  // for.
   const bool compensated = icp.state.earlier.lag_s > 0.0;
   const Vector6d missed = compensated ? Vector6d(0.5 * (acceleration - acceleration_)) : acceleration;
   acceleration_ = acceleration;

@@ -37,8 +37,8 @@ class PointTimeDecoder {
   explicit PointTimeDecoder(const PointTimeHints& hints) : hints_(hints) {}
 
   /// Before the first sweep, and not needed: first and last time of the bulk (without single wrong times) of some of
-  /// the first sweeps. The widest that shows a unit decides it: one that is a part of a
-  /// sweep tells nothing. Times that advance from sweep to sweep count from an epoch, however near zero.
+  /// the first sweeps. The widest that shows a unit decides it: one that is a part of a sweep tells nothing. Times that
+  /// advance from sweep to sweep count from an epoch, however near zero.
   void learn(const std::vector<RawTimes>& ends);
 
   /// Fills sweep.times_s from `raw`, which is as long as sweep.points; sets sweep.stamp_ns to the earliest point when

@@ -25,14 +25,25 @@ struct CloudMessage {
   std::optional<std::int64_t> stamp_ns;
   std::string frame_id;
   RawCloud cloud;
-  std::string sensor;             // what tells the sensors of one topic apart
-  std::vector<FieldInfo> fields;  // of a PointCloud2
+  std::string sensor;  // what tells the sensors of one topic apart
 };
 
-std::vector<FieldInfo> fields_of(const PointCloud2& cloud, const std::string& time_field) {
+// The message itself, or what its bytes say, kept in `parsed`.
+const PointCloud2& cloud_in(const RecordedMessage& message, const RecordedTopic& topic, const std::string& part,
+                            PointCloud2& parsed) {
+  if (message.cloud != nullptr) return *message.cloud;
+  parsed = parse_point_cloud2(message.bytes, encoding_of(topic), message.file, part);
+  return parsed;
+}
+
+// Of a PointCloud2 that has x, y and z; a CustomMsg's are always the same.
+std::vector<FieldInfo> fields_of(const RecordedMessage& message, const RecordedTopic& topic,
+                                 const std::string& time_field) {
+  if (scan_form(topic) != ScanForm::kPointCloud2) return {};
+  PointCloud2 parsed;
   std::vector<Field> fields;
-  for (const PointField& field : cloud.fields) fields.push_back({field.name});
-  return describe_fields(fields, find_roles(fields, time_field, {}));
+  for (const PointField& field : cloud_in(message, topic, "", parsed).fields) fields.push_back({field.name});
+  return describe_fields(fields, find_roles(fields, time_field, message.file));
 }
 
 // Stamp and frame are set even when it throws because of the points.
@@ -41,17 +52,15 @@ void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, con
   if (scan_form(topic) == ScanForm::kLivoxCustom) {
     LivoxMessage livox = parse_livox(message.bytes, encoding_of(topic), message.file, part);
     const std::string sensor = "LiDAR " + std::to_string(livox.lidar_id) + " in frame " + in_quotes(livox.frame_id);
-    into = {livox.stamp_ns, std::move(livox.frame_id), std::move(livox.cloud), sensor, {}};
+    into = {livox.stamp_ns, std::move(livox.frame_id), std::move(livox.cloud), sensor};
     return;
   }
   PointCloud2 parsed;
-  if (message.cloud == nullptr) parsed = parse_point_cloud2(message.bytes, encoding_of(topic), message.file, part);
-  const PointCloud2& cloud = message.cloud == nullptr ? parsed : *message.cloud;
+  const PointCloud2& cloud = cloud_in(message, topic, part, parsed);
   into.stamp_ns = cloud.stamp_ns;
   into.frame_id = cloud.frame_id;
   into.sensor = "frame " + in_quotes(cloud.frame_id);
   into.cloud = columns_of(cloud, time_field, message.file, part);
-  into.fields = fields_of(cloud, time_field);
 }
 
 PointTimeHints hints_of(const RecordedTopic& topic, const SourceOptions& options) {
@@ -140,6 +149,7 @@ class RecordingSource final : public ScanSource {
         if (!message) break;
         received_ns = message->received_ns;
         parse_cloud(*message, topic_, options_.time_field, "", cloud);
+        if (info_.fields.empty()) info_.fields = fields_of(*message, topic_, options_.time_field);
       } catch (const IoError&) {
         // Reported when it is reached.
       }
@@ -149,7 +159,6 @@ class RecordingSource final : public ScanSource {
         info_.frame_id = cloud.frame_id;
       }
       if (cloud.sensor != sensor_) continue;
-      if (info_.fields.empty()) info_.fields = std::move(cloud.fields);
       stamps.push_back(*cloud.stamp_ns);
       received.push_back(received_ns);
       if (!cloud.cloud.times) continue;

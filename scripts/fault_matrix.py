@@ -23,7 +23,7 @@ nothing of its poses: only whether it goes on tracking counts.
 
 What is counted. Odometry is relative: poses are compared with the truth from an anchor on, the first sweep of the map.
 A sweep with status `initialising`, or the last of RESTART lost ones in a row, begins a new map and is the next anchor.
-Status ok, degenerate, few_correspondences and recovered vouch for a pose. Such a pose is wrong when it is off by more than
+Status ok, degenerate and recovered vouch for a pose. Such a pose is wrong when it is off by more than
 0.25 m or 2° beyond what the run without a fault is off at the same sweep, both from the same anchor. A sweep of nowhere
 (foreign, covered) that is vouched for is wrong unless its pose is that of the sweep that it replaces. `tracks`: the
 last ten poses are right from the first of them on, and vouched for. Prints a table; --csv writes it.
@@ -44,7 +44,7 @@ from fault_cases import FAULTS, Drive, write_drive
 LIMIT_M, LIMIT_DEG = 0.25, 2.0
 RESTART = 10
 TAIL = 10
-VOUCHED = {"ok", "degenerate", "few_correspondences", "recovered"}
+VOUCHED = {"ok", "degenerate", "recovered"}
 
 
 def run_rilo(command, drive, folder, out):

@@ -93,7 +93,7 @@ void add_results(py::module_& module) {
           "[m], right perturbation.")
       .def_property_readonly(
           "status", [](const SweepResult& r) { return std::string(to_string(r.status)); },
-          "initialising, ok, degenerate, few_correspondences, lost, recovered or empty: how far the pose can be "
+          "initialising, ok, degenerate, lost, recovered or empty: how far the pose can be "
           "trusted.")
       .def("__repr__", result_repr)
       .def("_repr_html_", result_html);

@@ -29,10 +29,6 @@ OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const Healt
   if (!fits_map(icp, evidence, config) || !evidence.possible_motion) {
     return OdometryStatus::kLost;
   }
-  const auto inliers = static_cast<double>(icp.inliers);
-  if (inliers < config.few_inlier_ratio * static_cast<double>(evidence.source_points)) {
-    return OdometryStatus::kFewCorrespondences;
-  }
   if (evidence.was_lost) {
     return OdometryStatus::kRecovered;
   }

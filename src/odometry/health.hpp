@@ -9,7 +9,6 @@ namespace rilo {
 
 /// Evidence about one registration.
 struct Evidence {
-  std::size_t source_points = 0;
   double score = 0;             ///< map score at the registered pose
   double usual_score = 0;       ///< of the sweeps before; 0: unknown
   bool was_lost = false;        ///< the sweep before was lost

@@ -206,8 +206,6 @@ void add_health(KeyVisitor& keys, HealthConfig& c) {
       c.lost_share, 0, 1);
   keys.real({"least_score", "", "second and third sweep of a map: lost below it", "experiment: a jam"}, c.least_score,
             0, 1);
-  keys.real({"few_inlier_ratio", "", "below this ratio of correspondences to source points they are few", kNotTuned},
-            c.few_inlier_ratio, 0, 1);
   keys.real({"degenerate_ratio", "", "a direction with a smaller relative eigenvalue is not constrained",
              "experiment: weak directions"},
             c.degenerate_ratio, 0, 1);

@@ -19,7 +19,6 @@ bool cut_off(const IcpResult& icp, double range_m) {
 Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& registration, MotionVerdict motion,
                             const JudgedAgainst& before) const {
   Evidence evidence;
-  evidence.source_points = prepared.source.size();
   evidence.score = registration.score;
   evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
   evidence.ambiguous = registration.ambiguous;

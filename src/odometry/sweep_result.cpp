@@ -10,8 +10,6 @@ std::string_view to_string(OdometryStatus status) {
       return "initialising";
     case OdometryStatus::kDegenerate:
       return "degenerate";
-    case OdometryStatus::kFewCorrespondences:
-      return "few_correspondences";
     case OdometryStatus::kLost:
       return "lost";
     case OdometryStatus::kRecovered:

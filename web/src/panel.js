@@ -15,7 +15,7 @@ const REASONS = {
   worse_map_score: 'coarse result explains the map worse',
   no_time: 'no time for the coarse stage',
 };
-const GRAVITY = { ok: 'ok', initialising: 'ok', recovered: 'warn', degenerate: 'warn', few_correspondences: 'warn', lost: 'bad', empty: 'bad' };
+const GRAVITY = { ok: 'ok', initialising: 'ok', recovered: 'warn', degenerate: 'warn', lost: 'bad', empty: 'bad' };
 const DECADES = 4; // shown of the eigenvalues
 
 const words = (name) => name.replaceAll('_', ' ');

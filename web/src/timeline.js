@@ -1,7 +1,7 @@
 // The slider, and over it a line of what each sweep was: status, and where the coarse stage was taken.
 import { colour, onTheme } from './theme.js';
 
-const COLOURS = { ok: 'good', initialising: 'good', recovered: 'warn', degenerate: 'warn', few_correspondences: 'warn', lost: 'bad', empty: 'bad' };
+const COLOURS = { ok: 'good', initialising: 'good', recovered: 'warn', degenerate: 'warn', lost: 'bad', empty: 'bad' };
 
 export class Timeline {
   constructor(run) {

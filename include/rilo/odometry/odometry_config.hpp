@@ -57,7 +57,6 @@ struct AdaptiveThresholdConfig {
 struct HealthConfig {
   double lost_share = 0.5;           ///< lost when the map score falls below this share of the usual one
   double least_score = 0.17;         ///< second and third sweep of a map: lost below it, as wrong ones are
-  double few_inlier_ratio = 0.1;     ///< below this ratio of correspondences to source points they are few
   double degenerate_ratio = 0.0045;  ///< a relative eigenvalue below it means a direction is not constrained
   int restart_after = 10;            ///< sweeps lost in a row after which a new map starts at the predicted pose
 };

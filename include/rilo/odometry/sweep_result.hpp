@@ -12,17 +12,16 @@ namespace rilo {
 
 /// How far a pose can be trusted.
 enum class OdometryStatus : std::uint8_t {
-  kOk,                  ///< registered
-  kInitialising,        ///< first sweep: the map starts here
-  kDegenerate,          ///< registered, but a direction is (nearly) unobservable; the prediction fills it
-  kFewCorrespondences,  ///< too little overlap with the map; the pose leans on the prediction
-  kLost,                ///< the pose is a guess; the map is not updated
-  kRecovered,           ///< registered again after kLost
-  kEmpty,               ///< no usable point in the sweep; the pose is the prediction
+  kOk,            ///< registered
+  kInitialising,  ///< first sweep: the map starts here
+  kDegenerate,    ///< registered, but a direction is (nearly) unobservable; the prediction fills it
+  kLost,          ///< the pose is a guess; the map is not updated
+  kRecovered,     ///< registered again after kLost
+  kEmpty,         ///< no usable point in the sweep; the pose is the prediction
 };
-inline constexpr std::size_t kStatusCount = 7;
+inline constexpr std::size_t kStatusCount = 6;
 
-/// Short name for files: ok, initialising, degenerate, few_correspondences, lost, recovered, empty.
+/// Short name for files: ok, initialising, degenerate, lost, recovered, empty.
 std::string_view to_string(OdometryStatus status);
 
 /// Whether Odometry::last_map_points() of a sweep with that status belong in a map of the whole run. Not those of a

@@ -4,7 +4,7 @@ const pair = (run) => [{ name: 'estimate', color: 'var(--estimate)' },
   ...(run.data.truth.x.length ? [{ name: 'truth', color: 'var(--truth)' }] : [])];
 
 const statusColor = (name) => ({ ok: 'var(--ok)', recovered: 'var(--back)', initialising: 'var(--d)', degenerate: 'var(--weak)',
-  few_correspondences: 'var(--c)', lost: 'var(--bad)', empty: 'var(--other)' })[name] || 'var(--other)';
+  lost: 'var(--bad)', empty: 'var(--other)' })[name] || 'var(--other)';
 const initialColor = (name) => ({ prediction: 'var(--a)', coarse: 'var(--b)', identity: 'var(--d)' })[name] || 'var(--other)';
 const stageColors = ['var(--d)', 'var(--c)', 'var(--a)', 'var(--b)'];
 

@@ -18,7 +18,7 @@
 #include "console/text.hpp"
 #include "evaluation/percentile.hpp"
 #include "info_text.hpp"
-#include "io/ground_truth.hpp"
+#include "io/folders/ground_truth.hpp"
 #include "results/metrics_json.hpp"
 #include "results/run_metrics.hpp"
 #include "results/unusable_sweeps.hpp"

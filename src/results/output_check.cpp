@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/file_bytes.hpp"
-#include "io/scan_listing.hpp"
+#include "io/folders/scan_listing.hpp"
 #include "rilo/session/session.hpp"
 
 namespace rilo {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "console/text.hpp"
-#include "io/ground_truth.hpp"
+#include "io/folders/ground_truth.hpp"
 #include "results/pose_files.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"

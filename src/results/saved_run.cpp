@@ -7,8 +7,8 @@
 
 #include "console/text.hpp"
 #include "io/file_bytes.hpp"
-#include "io/ground_truth.hpp"
-#include "io/scan_listing.hpp"
+#include "io/folders/ground_truth.hpp"
+#include "io/folders/scan_listing.hpp"
 #include "results/metrics_json.hpp"
 #include "results/sweep_table.hpp"
 #include "rilo/config/config_file.hpp"

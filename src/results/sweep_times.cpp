@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "io/scan_listing.hpp"
+#include "io/folders/scan_listing.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/scan_source.hpp"
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "io/folders/scan_listing.hpp"
 #include "io/packets/ouster.hpp"
 #include "io/packets/velodyne.hpp"
-#include "io/scan_listing.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "io/cloud_columns.hpp"
+#include "io/clouds/cloud_columns.hpp"
 #include "io/ros/message_cursor.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"

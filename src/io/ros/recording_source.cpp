@@ -7,14 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "io/cloud_columns.hpp"
+#include "io/clouds/cloud_columns.hpp"
+#include "io/folders/scan_listing.hpp"
 #include "io/ros/driver_messages.hpp"
 #include "io/ros/scan_topic.hpp"
-#include "io/scan_listing.hpp"
 #include "io/stamp_difference.hpp"
-#include "io/sweep_timing.hpp"
 #include "io/text.hpp"
-#include "io/time_field.hpp"
+#include "io/times/sweep_timing.hpp"
+#include "io/times/time_field.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {

@@ -9,9 +9,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include "io/file_bytes.hpp"
+#include "io/folders/scan_listing.hpp"
 #include "io/ros/recording.hpp"
 #include "io/ros/unpack.hpp"
-#include "io/scan_listing.hpp"
 #include "io/temporary_folder.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/file_bytes.hpp"
+#include "io/folder_files.hpp"
 #include "io/folders/scan_listing.hpp"
 #include "rilo/session/session.hpp"
 

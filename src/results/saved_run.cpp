@@ -8,7 +8,7 @@
 #include "console/text.hpp"
 #include "io/file_bytes.hpp"
 #include "io/folders/ground_truth.hpp"
-#include "io/folders/scan_listing.hpp"
+#include "io/times/sweep_period.hpp"
 #include "results/metrics_json.hpp"
 #include "results/sweep_table.hpp"
 #include "rilo/config/config_file.hpp"
@@ -39,8 +39,7 @@ void fill_record(const RunMetrics& metrics, RunRecord& run) {
   run.command_line = metrics.command;
   // A relative path is one from where the run was started.
   const bool relative = fs::path(metrics.data).is_relative();
-  std::error_code ignored;
-  const bool there = relative && !metrics.data_path.empty() && fs::exists(metrics.data_path, ignored);
+  const bool there = relative && !metrics.data_path.empty() && detail::path_exists(metrics.data_path);
   run.data = there ? metrics.data_path : metrics.data;
   run.threads = metrics.threads;
   run.peak_rss_mb = metrics.peak_rss_mb.value_or(0);
@@ -137,9 +136,8 @@ bool is_saved_run(const fs::path& folder) {
 }
 
 SavedRun read_saved_run(const fs::path& folder) {
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) {
-    throw IoError({folder, "", fs::exists(folder, ignored) ? "a file" : "no such folder",
+  if (!detail::is_folder(folder)) {
+    throw IoError({folder, "", detail::path_exists(folder) ? "a file" : "no such folder",
                    "a folder that rilo run --out has written", "Check the path"});
   }
   if (!is_saved_run(folder)) {

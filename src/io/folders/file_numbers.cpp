@@ -2,7 +2,7 @@
 #include <charconv>
 #include <numeric>
 
-#include "io/folders/scan_listing.hpp"
+#include "io/folders/sweep_files.hpp"
 
 namespace rilo::detail {
 namespace fs = std::filesystem;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "io/bad_sweeps.hpp"
 #include "io/clouds/cloud_columns.hpp"
 #include "io/clouds/pcd_header.hpp"
 #include "io/clouds/ply_header.hpp"

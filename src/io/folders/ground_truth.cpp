@@ -65,8 +65,7 @@ std::optional<GroundTruth> find_truth(const fs::path& data, PoseInstant instant)
   }
   if (auto truth = detail::kitti_raw_truth(data)) return truth;
   const fs::path file = official_poses(data);
-  std::error_code ignored;
-  if (!fs::is_directory(data / "velodyne", ignored) || !detail::is_file(file)) return std::nullopt;
+  if (!detail::is_folder(data / "velodyne") || !detail::is_file(file)) return std::nullopt;
   if (!T_cam_lidar) {
     throw IoError({file, "", "poses in the camera frame and no Tr in " + (data / "calib.txt").string(),
                    "the transform from LiDAR to camera", "Put KITTI's calib.txt into the sequence folder"});
@@ -99,8 +98,7 @@ std::optional<PoseInstant> parse_pose_instant(std::string_view text) {
 }
 
 std::optional<GroundTruth> read_ground_truth(const fs::path& data, PoseInstant instant) {
-  std::error_code ignored;
-  if (!fs::is_directory(data, ignored)) return std::nullopt;
+  if (!detail::is_folder(data)) return std::nullopt;
   auto truth = find_truth(data, instant);
   if (!truth) return std::nullopt;
   // Spinning sensors stamp the middle of the sweep (KITTI); the others are half a sweep away.

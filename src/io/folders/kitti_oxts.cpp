@@ -6,8 +6,10 @@
 
 #include "geometry/degrees.hpp"
 #include "io/file_bytes.hpp"
+#include "io/folder_files.hpp"
 #include "io/folders/kitti_calibration.hpp"
-#include "io/folders/scan_listing.hpp"
+#include "io/folders/stamp_list.hpp"
+#include "io/folders/sweep_files.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"
@@ -84,24 +86,12 @@ SE3 lidar_from_imu(const fs::path& drive) {
   return renormalised(*T);
 }
 
-std::size_t count_lines(const fs::path& file) {
-  const FileBytes bytes = read_file(file);
-  LineScanner lines(bytes.view());
-  std::size_t count = 0;
-  while (const auto line = lines.next()) count += trimmed(*line).empty() ? 0 : 1;
-  return count;
-}
-
 // Drives as "_extract" have the unit's own 100 Hz: their numbers are not those of the sweeps.
 void check_synchronised(const fs::path& drive, const fs::path& data) {
   const fs::path stamps = drive / "velodyne_points" / "timestamps.txt";
   if (!path_exists(stamps)) return;
-  std::size_t files = 0;
-  std::error_code error;
-  for (fs::directory_iterator entry(data, error), end; !error && entry != end; entry.increment(error)) {
-    files += entry->path().extension() == ".txt" ? 1 : 0;
-  }
-  const std::size_t sweeps = count_lines(stamps);
+  const std::size_t files = files_with(data, {".txt"}).size();
+  const std::size_t sweeps = read_dates(stamps).size();
   if (files == sweeps) return;
   throw IoError({data, "", std::to_string(files) + " files",
                  "one for each of the " + std::to_string(sweeps) + " sweeps in " + stamps.string(),
@@ -112,14 +102,14 @@ void check_synchronised(const fs::path& drive, const fs::path& data) {
 
 std::optional<GroundTruth> kitti_raw_truth(const fs::path& drive) {
   const fs::path data = drive / "oxts" / "data";
-  std::error_code error;
-  if (!is_kitti_raw(drive) || !fs::is_directory(data, error)) return std::nullopt;
+  const fs::path sweeps = drive / "velodyne_points" / "data";
+  if (!is_folder(sweeps) || !is_folder(data)) return std::nullopt;
   check_synchronised(drive, data);
   const SE3 T_imu_lidar = lidar_from_imu(drive).inverse();
   GroundTruth truth{{}, drive / "oxts", "stamp", {}};
   std::optional<double> scale;
   SE3 T_first_world;
-  for (const fs::path& sweep : find_sweep_files(drive / "velodyne_points" / "data").files) {
+  for (const fs::path& sweep : find_sweep_files(sweeps).files) {
     const Oxts oxts = read_oxts((data / sweep.stem()).concat(".txt"));
     if (!scale) scale = std::cos(oxts.latitude_deg * kRadPerDeg);
     const SE3 T_world_lidar = mercator_pose(oxts, *scale) * T_imu_lidar;

@@ -36,8 +36,7 @@ std::vector<std::int64_t> read_lines(const std::filesystem::path& file, Parse&& 
   return stamps;
 }
 
-}  // namespace
-
+// "2011-09-26 13:02:25.951199337", taken as UTC, in ns since 1970.
 std::optional<std::int64_t> parse_date(std::string_view text) {
   constexpr std::size_t kToSeconds = 17;  // "2011-09-26 13:02:"
   int year = 0;
@@ -56,6 +55,8 @@ std::optional<std::int64_t> parse_date(std::string_view text) {
   const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
   return ((days * 24 + hour) * 60 + minute) * 60'000'000'000 + *seconds;
 }
+
+}  // namespace
 
 std::optional<std::int64_t> parse_long_stamp(std::string_view text) {
   constexpr std::size_t kNanosecondDigits = 19;

@@ -9,9 +9,6 @@
 
 namespace rilo::detail {
 
-/// "2011-09-26 13:02:25.951199337", taken as UTC, in ns since 1970.
-std::optional<std::int64_t> parse_date(std::string_view text);
-
 /// Whole stamps as data sets write them: 19 digits are ns, 16 are µs, decimals with 9 digits or more before the point
 /// are seconds.
 std::optional<std::int64_t> parse_long_stamp(std::string_view text);

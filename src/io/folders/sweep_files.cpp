@@ -1,12 +1,13 @@
-// Which files of a folder are sweeps, and in which order.
+#include "io/folders/sweep_files.hpp"
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
 #include <system_error>
 #include <utility>
 
-#include "io/folders/scan_listing.hpp"
+#include "io/file_bytes.hpp"
+#include "io/folder_files.hpp"
 #include "io/folders/stamp_list.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
@@ -17,35 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<const char*, 3> kFormats{"bin", "pcd", "ply"};
-
-bool is_digit(char letter) { return std::isdigit(static_cast<unsigned char>(letter)) != 0; }
-
-// The number that starts at `place`, without leading zeros; moves `place` behind it.
-std::string_view take_number(std::string_view text, std::size_t& place) {
-  while (place + 1 < text.size() && text[place] == '0' && is_digit(text[place + 1])) ++place;
-  const std::size_t begin = place;
-  while (place < text.size() && is_digit(text[place])) ++place;
-  return text.substr(begin, place - begin);
-}
-
-bool natural_less(const std::string& a, const std::string& b) {
-  std::size_t i = 0;
-  std::size_t k = 0;
-  while (i < a.size() && k < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[k])) {
-      const std::string_view first = take_number(a, i);
-      const std::string_view second = take_number(b, k);
-      if (first.size() != second.size()) return first.size() < second.size();
-      if (first != second) return first < second;
-    } else {
-      if (a[i] != b[k]) return a[i] < b[k];
-      ++i;
-      ++k;
-    }
-  }
-  if ((i < a.size()) != (k < b.size())) return k < b.size();
-  return a < b;  // 1.bin and 01.bin: some order, always the same
-}
 
 // Without extensions; nuScenes has NAME.pcd.bin.
 std::string name_of(const fs::path& file) {
@@ -67,9 +39,6 @@ bool sort_by_seconds(std::vector<fs::path>& files) {
   std::transform(stamped.begin(), stamped.end(), files.begin(), [](const auto& one) { return one.second; });
   return true;
 }
-
-// macOS puts ._NAME beside NAME where a disk cannot hold its attributes: never data.
-bool is_hidden(const fs::path& file) { return file.filename().string().front() == '.'; }
 
 struct FolderContent {
   std::array<std::vector<fs::path>, kFormats.size()> sweeps;
@@ -106,8 +75,7 @@ std::optional<std::string> subfolder_with_sweeps(const fs::path& folder, const s
   for (const std::string& name : names) {
     for (const char* below : {"", "data"}) {
       const std::string place = *below == 0 ? name : name + "/" + below;
-      std::error_code ignored;
-      if (!fs::is_directory(folder / place, ignored)) continue;
+      if (!is_folder(folder / place)) continue;
       try {
         const SweepFiles inside = find_sweep_files(folder / place, false);
         return place + "/ has " + std::to_string(inside.files.size()) + " ." + inside.format;
@@ -147,24 +115,6 @@ std::string sweep_format(const fs::path& file) {
     if (extension == std::string(".") + format) return format;
   }
   return {};
-}
-
-void sort_naturally(std::vector<fs::path>& files) {
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().string(), b.filename().string());
-  });
-}
-
-std::vector<fs::path> files_with(const fs::path& folder, std::initializer_list<std::string_view> extensions) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (is_hidden(entry->path())) continue;
-    const std::string extension = lower_case(entry->path().extension().string());
-    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) files.push_back(entry->path());
-  }
-  sort_naturally(files);
-  return files;
 }
 
 SweepFiles find_sweep_files(const fs::path& folder, bool look_below) {

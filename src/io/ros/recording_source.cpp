@@ -7,12 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "io/bad_sweeps.hpp"
 #include "io/clouds/cloud_columns.hpp"
-#include "io/folders/scan_listing.hpp"
 #include "io/ros/driver_messages.hpp"
 #include "io/ros/scan_topic.hpp"
 #include "io/stamp_difference.hpp"
 #include "io/text.hpp"
+#include "io/times/sweep_period.hpp"
 #include "io/times/sweep_timing.hpp"
 #include "io/times/time_field.hpp"
 #include "rilo/io/io_error.hpp"

@@ -4,6 +4,7 @@
 
 #include "io/clouds/cloud_columns.hpp"
 #include "io/file_bytes.hpp"
+#include "io/folder_files.hpp"
 #include "io/folders/scan_listing.hpp"
 #include "io/packets/packet_source.hpp"
 #include "io/ros/recording_source.hpp"
@@ -57,8 +58,7 @@ std::unique_ptr<ScanSource> open_file(const fs::path& file, const SourceOptions&
 }
 
 std::unique_ptr<detail::Recording> recording_at(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_directory(path, ignored) ? recording_in_folder(path) : recording_in_file(path);
+  return detail::is_folder(path) ? recording_in_folder(path) : recording_in_file(path);
 }
 
 std::unique_ptr<ScanSource> open_data(const fs::path& path, const SourceOptions& options) {

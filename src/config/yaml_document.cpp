@@ -3,10 +3,10 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
-#include <system_error>
 
 #include <yaml-cpp/eventhandler.h>
 
+#include "io/file_bytes.hpp"
 #include "rilo/config/config_file.hpp"
 
 namespace rilo::detail {
@@ -62,10 +62,8 @@ std::string kind_of(const YAML::Node& node) {
 }
 
 std::string read_yaml_file(const std::filesystem::path& file, const std::string& expected, const std::string& remedy) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    const bool exists = std::filesystem::exists(file, error);
-    throw ConfigError({file, "", exists ? "not a regular file" : "no such file", expected, remedy});
+  if (!is_file(file)) {
+    throw ConfigError({file, "", path_exists(file) ? "not a regular file" : "no such file", expected, remedy});
   }
   std::ifstream stream(file, std::ios::binary);
   std::string text;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "console/text.hpp"
+#include "io/file_bytes.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
@@ -266,9 +267,8 @@ nlohmann::json to_json(const StampFaults& faults) { return json_of(faults, Metri
 
 nlohmann::json read_json_object(const std::filesystem::path& file, const std::string& expected,
                                 const std::string& remedy) {
-  std::error_code ignored;
   std::ifstream stream(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file, ignored) || !stream) {
+  if (!detail::is_file(file) || !stream) {
     throw IoError({file, "", "no file that can be read", expected, remedy});
   }
   nlohmann::json json;

@@ -11,7 +11,6 @@
 #include "checks.hpp"
 #include "command.hpp"
 #include "console/interrupt.hpp"
-#include "console/text.hpp"
 #include "results/live_view.hpp"
 #include "results/saved_run.hpp"
 #include "rilo/config/config_file.hpp"

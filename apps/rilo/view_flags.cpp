@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include "checks.hpp"
-#include "command.hpp"
 #include "console/interrupt.hpp"
 
 namespace rilo::cli {

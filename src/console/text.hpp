@@ -1,7 +1,6 @@
 // Text for people and for files.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 

@@ -12,7 +12,6 @@
 
 #include "console/progress.hpp"
 #include "results/live_view.hpp"
-#include "results/run_record.hpp"
 #include "results/run_request.hpp"
 #include "rilo/session/session.hpp"
 #include "view/budgeted_map.hpp"

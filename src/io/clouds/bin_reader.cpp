@@ -1,13 +1,10 @@
 // Records of float32: KITTI's and nuScenes' .bin.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
-#include <system_error>
 
 #include "io/clouds/cloud_columns.hpp"
 #include "io/file_bytes.hpp"
-#include "io/raw_bytes.hpp"
 #include "io/text.hpp"
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/io_error.hpp"

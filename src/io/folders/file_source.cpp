@@ -44,25 +44,25 @@ std::vector<Field> fields_of(const std::filesystem::path& file, const std::strin
   return fields;
 }
 
-// What the first file has. A file that cannot be read is reported when it is reached.
-void look_at_fields(ScanListing& listing, const SourceOptions& options, std::optional<std::string>& times) {
+// What the first file has, its time field above all; also fills in the fields of the listing. A file that cannot be
+// read is reported when it is reached.
+std::optional<std::string> promised_field(ScanListing& listing, const SourceOptions& options) {
   try {
     const std::vector<Field> fields = fields_of(listing.files.front(), listing.info.format, options);
     const FieldRoles roles = find_roles(fields, options.time_field, listing.files.front());
     listing.info.fields = describe_fields(fields, roles);
-    if (roles.time) times = "field " + fields[*roles.time].name;
+    if (roles.time) return "field " + fields[*roles.time].name;
   } catch (const IoError&) {
-    return;
+    return std::nullopt;
   }
+  return std::nullopt;
 }
 
-// Also fills in the fields of the listing.
 std::optional<std::string> promised_times(ScanListing& listing, const SourceOptions& options) {
-  std::optional<std::string> times;
-  look_at_fields(listing, options, times);
+  const auto field = promised_field(listing, options);
   if (listing.column_points > 0) return "the order of the points, fractions of the sweep since its stamp";
   if (!listing.fraction_files.empty()) return "times_pt, fractions of the sweep since its stamp";
-  return times;
+  return field;
 }
 
 // Of a sensor whose columns lie one after the other; a sweep that lacks points has none.

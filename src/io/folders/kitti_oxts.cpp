@@ -12,7 +12,6 @@
 #include "io/folders/sweep_files.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo::detail {
 namespace fs = std::filesystem;

@@ -1,7 +1,6 @@
 #include "io/folders/scan_listing.hpp"
 
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "io/file_bytes.hpp"

@@ -1,5 +1,4 @@
 // A rosbag2 folder: metadata.yaml says which files there are and how they are compressed.
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>

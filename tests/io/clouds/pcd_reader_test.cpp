@@ -2,7 +2,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "io/clouds/lzf.hpp"
 #include "io/io_test_util.hpp"
 #include "io/sweep_writer.hpp"
 #include "rilo/io/cloud_reader.hpp"

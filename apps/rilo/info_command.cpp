@@ -16,6 +16,7 @@
 #include "evaluation/percentile.hpp"
 #include "info_text.hpp"
 #include "io/folders/ground_truth.hpp"
+#include "io/stamp_difference.hpp"
 #include "results/data_survey.hpp"
 #include "results/metrics_json.hpp"
 #include "results/run_metrics.hpp"
@@ -79,7 +80,7 @@ nlohmann::json stamps_json(const DataSurvey& survey, const SourceInfo& info) {
   nlohmann::json json = {{"period_s", info.period_s}, {"assumed", info.stamps_assumed}};
   if (survey.stamps.empty()) return json;
   json["begin_s"] = format_stamp(survey.stamps.front());
-  json["span_s"] = static_cast<double>(survey.stamps.back() - survey.stamps.front()) * 1e-9;
+  json["span_s"] = detail::seconds_between(survey.stamps.front(), survey.stamps.back());
   if (survey.complete) {
     const StampFaults& faults = info.faults;
     json["gaps"] = faults.gaps;

@@ -8,6 +8,7 @@
 #include "console/text.hpp"
 #include "io/file_bytes.hpp"
 #include "io/folders/ground_truth.hpp"
+#include "io/stamp_difference.hpp"
 #include "io/times/sweep_period.hpp"
 #include "results/metrics_json.hpp"
 #include "results/sweep_table.hpp"
@@ -98,7 +99,7 @@ void add_twists(std::vector<SweepResult>& results) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     const SweepResult& before = results[i == 0 ? 0 : i - 1];
     const SweepResult& after = results[std::min(i + 1, results.size() - 1)];
-    const double dt_s = static_cast<double>(after.stamp_ns - before.stamp_ns) * 1e-9;
+    const double dt_s = detail::seconds_between(before.stamp_ns, after.stamp_ns);
     if (dt_s > 0.0) results[i].twist = se3_log(before.T_odom_lidar.inverse() * after.T_odom_lidar) / dt_s;
   }
 }

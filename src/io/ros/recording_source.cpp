@@ -1,7 +1,6 @@
 #include "io/ros/recording_source.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -183,7 +182,7 @@ class RecordingSource final : public ScanSource {
   std::int64_t stamp_of(const RecordedMessage& message, std::int64_t header_ns) const {
     if (!unstamped_) return header_ns;
     if (!info_.stamps_assumed) return message.received_ns;
-    return std::llround(static_cast<double>(current_) * info_.period_s * 1e9);
+    return nanoseconds(static_cast<double>(current_) * info_.period_s);
   }
 
   Sweep decode(const RecordedMessage& message) {

@@ -61,8 +61,9 @@ class StampOrder final : public WrappedSource {
   // Whether the sweep is used; counts what is wrong with it.
   bool judge(const Sweep& sweep) {
     const std::int64_t back_ns = stamp_difference(*newest_, sweep.stamp_ns);
+    const double back_s = seconds_between(sweep.stamp_ns, *newest_);
     if (back_ns < 0) {
-      if (!skipped_) look_for_gap(static_cast<double>(-back_ns) * 1e-9);
+      if (!skipped_) look_for_gap(-back_s);
       return true;
     }
     if (back_ns == 0) {
@@ -73,12 +74,11 @@ class StampOrder final : public WrappedSource {
     }
     if (back_ns > kClockJumpNs || ++in_a_row_ > kMostInARow) {
       ++faults_.clock_jumps;
-      warn(fmt::format("the stamps go back by {:.3f} s: taken as a clock that was set",
-                       static_cast<double>(back_ns) * 1e-9));
+      warn(fmt::format("the stamps go back by {:.3f} s: taken as a clock that was set", back_s));
       return true;
     }
     ++faults_.out_of_order;
-    warn(fmt::format("dropped: {:.3f} s older than a sweep before", static_cast<double>(back_ns) * 1e-9));
+    warn(fmt::format("dropped: {:.3f} s older than a sweep before", back_s));
     return false;
   }
 

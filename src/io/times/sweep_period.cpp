@@ -14,9 +14,7 @@ namespace rilo::detail {
 std::optional<double> mean_period_s(const std::vector<std::int64_t>& stamps) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
-    if (stamps[i] > stamps[i - 1]) {
-      steps.push_back(static_cast<double>(stamp_difference(stamps[i], stamps[i - 1])) * 1e-9);
-    }
+    if (stamps[i] > stamps[i - 1]) steps.push_back(seconds_between(stamps[i - 1], stamps[i]));
   }
   if (steps.empty()) return std::nullopt;
   const double median = upper_median(std::span(steps));

@@ -1,10 +1,10 @@
 #include "io/times/sweep_timing.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
+#include "io/stamp_difference.hpp"
 #include "io/times/time_field.hpp"
 
 namespace rilo::detail {
@@ -41,7 +41,7 @@ void SweepTiming::apply(const std::optional<RawTimes>& times, const std::filesys
                         Sweep& sweep) {
   if (from_ == PointTimes::kNone || from_ == PointTimes::kOrder) return;  // see with_order_times()
   if (from_ == PointTimes::kAzimuth) {
-    sweep.stamp_ns += std::llround(forward_after_s * 1e9);
+    sweep.stamp_ns += nanoseconds(forward_after_s);
     sweep.times_s = azimuth_times(sweep.points, period_s_, spin_);
     return;
   }

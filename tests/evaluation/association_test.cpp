@@ -8,11 +8,10 @@
 
 #include "evaluation/trajectories.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 using ::testing::ElementsAre;
-using testing::pose;
 
 /// Poses whose x is their place in the list.
 Trajectory stamped(const std::vector<std::int64_t>& stamps_ns) {
@@ -83,4 +82,4 @@ TEST(MatchByIndex, PairsEqualPlaces) {
 TEST(PosesOf, DropsStamps) { EXPECT_EQ(poses_of(stamped({5, 6}))[1].translation().x(), 1.0); }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

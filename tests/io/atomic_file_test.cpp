@@ -10,13 +10,9 @@
 
 #include "io/io_test_util.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::expect_io_error;
-using test::files_in;
-using test::slurp;
-using test::TempDir;
 namespace fs = std::filesystem;
 
 TEST(IoErrorTest, MessageHasAllParts) {
@@ -149,4 +145,4 @@ TEST(AtomicFileTest, FullDiskLeavesNothingBehind) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

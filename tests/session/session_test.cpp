@@ -10,18 +10,18 @@
 #include "rilo/session/session_observer.hpp"
 #include "simulation/small_drive.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 constexpr std::size_t kSweeps = 24;
 
 const std::vector<Sweep>& drive() {
-  static const std::vector<Sweep> kDrive = test::small_drive(kSweeps);
+  static const std::vector<Sweep> kDrive = small_drive(kSweeps);
   return kDrive;
 }
 
 // Warns when the third sweep is read.
-class DriveSource final : public test::SweepsSource {
+class DriveSource final : public SweepsSource {
  public:
   explicit DriveSource(std::size_t fails_at = SIZE_MAX) : SweepsSource(drive(), 0.1, fails_at) {}
 
@@ -207,4 +207,4 @@ TEST(Session, TheMapIsThatOfTheLastPass) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

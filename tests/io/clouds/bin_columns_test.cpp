@@ -8,12 +8,9 @@
 
 #include "io/io_test_util.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::expect_io_error;
-using test::sweeps_of;
-using test::TempDir;
 using Record = std::vector<float>;
 
 constexpr std::size_t kRecords = 6000;  // a multiple of 4: any number of columns fits four
@@ -34,7 +31,7 @@ std::vector<Record> sweep() {
 }
 
 // The named columns of the records: x y z i r t, 1, 0.
-std::string bytes_of(const std::vector<Record>& records, const std::string& columns) {
+std::string records_of(const std::vector<Record>& records, const std::string& columns) {
   const std::string names = "xyzirt";
   std::string bytes;
   for (const Record& record : records) {
@@ -65,7 +62,7 @@ TEST(BinColumnsTest, OtherNumbersThanFourAreRefused) {
     for (const auto& records : {sweep(), shuffled(sweep())}) {
       SCOPED_TRACE(kept);
       const TempDir folder;
-      const auto file = folder.write("a.bin", bytes_of(records, kept));
+      const auto file = folder.write("a.bin", records_of(records, kept));
       expect_io_error([&] { open_scan_source(file); }, {"a.bin", "fit records of 3, 4, 5, 6",
                                                         std::string("look like records of ") + count, "--bin-fields"});
       SourceOptions options;
@@ -80,7 +77,7 @@ TEST(BinColumnsTest, FourAreTaken) {
   for (const auto& records : {sweep(), shuffled(sweep()), every_other_zero(sweep())}) {
     for (const char* columns : {"xyzi", "xyz0", "xyz1", "xyzr"}) {
       const TempDir folder;
-      const auto source = open_scan_source(folder.write("a.bin", bytes_of(records, columns)));
+      const auto source = open_scan_source(folder.write("a.bin", records_of(records, columns)));
       EXPECT_EQ(sweeps_of(*source).at(0).points.size(), kRecords) << columns;
     }
   }
@@ -88,7 +85,7 @@ TEST(BinColumnsTest, FourAreTaken) {
 
 TEST(BinColumnsTest, FiveWithARing) {
   const TempDir folder;
-  const auto sweeps = sweeps_of(*open_scan_source(folder.write("a.bin", bytes_of(sweep(), "xyzir"))));
+  const auto sweeps = sweeps_of(*open_scan_source(folder.write("a.bin", records_of(sweep(), "xyzir"))));
   ASSERT_EQ(sweeps.at(0).rings.size(), kRecords);
   EXPECT_EQ(sweeps[0].rings[17], 1);
 }
@@ -100,10 +97,10 @@ TEST(BinColumnsTest, NumbersThatTellNothing) {
     std::vector<Record> noise(records);
     for (Record& record : noise) record = {any(random), any(random), any(random), any(random)};
     const TempDir folder;
-    const auto source = open_scan_source(folder.write("a.bin", bytes_of(noise, "xyzi")));
+    const auto source = open_scan_source(folder.write("a.bin", records_of(noise, "xyzi")));
     EXPECT_EQ(sweeps_of(*source).at(0).points.size(), records);
   }
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

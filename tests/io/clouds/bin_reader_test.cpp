@@ -7,14 +7,8 @@
 #include "io/sweep_writer.hpp"
 #include "rilo/io/cloud_reader.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::bytes_of;
-using test::expect_io_error;
-using test::expect_same;
-using test::small_sweep;
-using test::TempDir;
 
 TEST(BinTest, KittiRoundTrip) {
   const TempDir folder;
@@ -80,4 +74,4 @@ TEST(BinTest, NotAFile) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

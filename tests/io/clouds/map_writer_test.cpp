@@ -9,11 +9,8 @@
 #include "io/io_test_util.hpp"
 #include "rilo/io/cloud_reader.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::expect_io_error;
-using test::TempDir;
 
 RawCloud read_back(const std::filesystem::path& file) {
   return file.extension() == ".ply" ? read_ply(file) : read_pcd(file);
@@ -50,7 +47,7 @@ TEST(MapWriterTest, StreamedPointsComeBack) {
       EXPECT_EQ(cloud.intensities, all.intensities);
     }
   }
-  EXPECT_EQ(test::files_in(folder.path()), 2U);
+  EXPECT_EQ(files_in(folder.path()), 2U);
 }
 
 TEST(MapWriterTest, NormalsAsViewersNameThem) {
@@ -62,7 +59,7 @@ TEST(MapWriterTest, NormalsAsViewersNameThem) {
   for (const auto& [name, fields] : {std::pair{"map.ply", "property float nx\nproperty float ny\nproperty float nz\n"},
                                      std::pair{"map.pcd", "FIELDS x y z normal_x normal_y normal_z intensity\n"}}) {
     write_map(folder / name, map);
-    const std::string bytes = test::slurp(folder / name);
+    const std::string bytes = slurp(folder / name);
     EXPECT_NE(bytes.find(fields), std::string::npos) << bytes;
     std::array<float, 7> row{};
     std::memcpy(row.data(), bytes.data() + bytes.size() - sizeof(row), sizeof(row));
@@ -87,7 +84,7 @@ TEST(MapWriterTest, NothingWithoutFinish) {
     writer.add(part);
     writer.add(part);
   }
-  EXPECT_EQ(test::files_in(folder.path()), 0U);
+  EXPECT_EQ(files_in(folder.path()), 0U);
 }
 
 TEST(MapWriterTest, Refusals) {
@@ -110,4 +107,4 @@ TEST(MapWriterTest, Refusals) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -6,14 +6,8 @@
 #include "io/sweep_writer.hpp"
 #include "rilo/io/cloud_reader.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::bytes_of;
-using test::expect_io_error;
-using test::expect_same;
-using test::small_sweep;
-using test::TempDir;
 
 class PcdRoundTrip : public testing::TestWithParam<PcdEncoding> {};
 TEST_P(PcdRoundTrip, KeepsEveryBit) {
@@ -159,8 +153,8 @@ TEST(SweepWriterTest, RefusesColumnsOfOtherLengths) {
   EXPECT_THROW(write_pcd(folder / "a.pcd", sweep), std::invalid_argument);
   EXPECT_THROW(write_ply(folder / "a.ply", sweep), std::invalid_argument);
   EXPECT_THROW(write_kitti_bin(folder / "a.bin", sweep), std::invalid_argument);
-  EXPECT_EQ(test::files_in(folder.path()), 0U);
+  EXPECT_EQ(files_in(folder.path()), 0U);
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -4,14 +4,8 @@
 #include "io/sweep_writer.hpp"
 #include "rilo/io/cloud_reader.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::bytes_of;
-using test::expect_io_error;
-using test::expect_same;
-using test::small_sweep;
-using test::TempDir;
 
 class PlyRoundTrip : public testing::TestWithParam<PlyEncoding> {};
 TEST_P(PlyRoundTrip, KeepsEveryBit) {
@@ -150,4 +144,4 @@ TEST(PlyTest, HugeEmptyElement) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -3,12 +3,8 @@
 #include "io/ros/ros_bytes.hpp"
 #include "rilo/io/scan_source.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::bin_of;
-using test::expect_io_error;
-using test::TempDir;
 
 void write_kitti_raw(const TempDir& folder, const std::string& dates) {
   for (const char* name : {"0000000000", "0000000001", "0000000003"}) {
@@ -52,7 +48,7 @@ TEST(DatasetLayoutsTest, KittiRawWithWrongDates) {
 
 TEST(DatasetLayoutsTest, Mulran) {
   const TempDir folder;
-  test::Bytes whole;
+  Bytes whole;
   for (std::size_t i = 0; i < std::size_t{64} * 1024; ++i) {
     whole.put(static_cast<float>(i % 64) + 1).put(2.0F).put(3.0F).put(9.0F);
   }
@@ -73,7 +69,7 @@ TEST(DatasetLayoutsTest, Mulran) {
 
 TEST(DatasetLayoutsTest, FiveFloats) {
   const TempDir folder;
-  const std::string five = test::bytes_of<float>({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+  const std::string five = bytes_of<float>({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
   folder.write("a/0.bin", five);
   folder.write("a/1.bin", five + five);
   const auto sweep = open_scan_source(folder / "a")->next();
@@ -85,11 +81,11 @@ TEST(DatasetLayoutsTest, FiveFloats) {
   folder.write("c/0.pcd.bin", five + five);
   EXPECT_EQ(open_scan_source(folder / "c")->next()->points.size(), 4U);
   // 20 bytes that are four columns and a surplus: what would be the ring is none.
-  folder.write("e/0.bin", test::bytes_of<float>({1, 2, 3, 0.4F, 5.5F}));
+  folder.write("e/0.bin", bytes_of<float>({1, 2, 3, 0.4F, 5.5F}));
   expect_io_error([&] { open_scan_source(folder / "e")->next(); }, {"20 bytes", "bin_fields"});
   folder.write("d/0.bin", five.substr(0, 33));
   expect_io_error([&] { open_scan_source(folder / "d")->next(); }, {"33 bytes", "bin_fields"});
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -8,16 +8,8 @@
 #include "io/sweep_writer.hpp"
 #include "rilo/io/scan_source.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::bin_of;
-using test::bytes_of;
-using test::expect_io_error;
-using test::has_warning;
-using test::small_sweep;
-using test::TempDir;
-using test::write_sequence;
 
 // A sweep that is known by its first point.
 Sweep marked(float mark) {
@@ -148,9 +140,9 @@ TEST(FolderSourceTest, TimestampsThatDoNotFitAreNamed) {
   folder.write("d/lidar/timestamps.txt", "noon\n");
   const auto info = open_scan_source(folder / "d/lidar")->info();
   EXPECT_TRUE(info.stamps_assumed);
-  EXPECT_TRUE(test::has_warning(info, "d/timestamps.txt: 2 stamps for 1 sweeps"));
-  EXPECT_TRUE(test::has_warning(info, "lidar/timestamps.txt, line 1: 'noon'"));
-  EXPECT_TRUE(test::has_warning(info, "no timestamps found; assuming 10 Hz"));
+  EXPECT_TRUE(has_warning(info, "d/timestamps.txt: 2 stamps for 1 sweeps"));
+  EXPECT_TRUE(has_warning(info, "lidar/timestamps.txt, line 1: 'noon'"));
+  EXPECT_TRUE(has_warning(info, "no timestamps found; assuming 10 Hz"));
   // A KITTI sequence has its times beside velodyne/; what lies above that is of other data.
   folder.write("s/00/velodyne/1.bin", bin_of(1));
   folder.write("s/timestamps.txt", "0.5\n");
@@ -287,4 +279,4 @@ TEST(FolderSourceTest, SkipReadsNothing) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

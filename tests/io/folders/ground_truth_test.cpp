@@ -2,12 +2,8 @@
 
 #include "io/io_test_util.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::expect_io_error;
-using test::kitti_row;
-using test::TempDir;
 
 // LiDAR forward is camera z, LiDAR left is camera -x, LiDAR up is camera -y.
 constexpr const char* kCalib = "Tr: 0 -1 0 0 0 0 -1 0 1 0 0 0\n";
@@ -117,4 +113,4 @@ TEST(GroundTruthTest, MalformedFile) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

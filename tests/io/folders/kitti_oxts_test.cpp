@@ -12,12 +12,9 @@
 #include "rilo/geometry/se3.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::bin_of;
-using test::expect_io_error;
-using test::TempDir;
 namespace fs = std::filesystem;
 
 constexpr double kEarthRadiusM = 6378137;
@@ -120,7 +117,7 @@ TEST(KittiOxtsTest, OtherTruthGoesBefore) {
   const TempDir folder;
   const fs::path drive = write_drive(folder);
   std::string rows;
-  for (int i = 1; i < kOxtsSweeps; ++i) rows += test::kitti_row(i, 0, 0);
+  for (int i = 1; i < kOxtsSweeps; ++i) rows += kitti_row(i, 0, 0);
   folder.write(fs::relative(drive / "poses_velo.txt", folder.path()).string(), rows);
   EXPECT_EQ(read_ground_truth(drive, PoseInstant::kMid)->file.filename(), "poses_velo.txt");
 }
@@ -196,4 +193,4 @@ TEST(KittiOxtsTest, RealDriveAsComputedElsewhere) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

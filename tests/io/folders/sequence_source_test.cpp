@@ -7,14 +7,8 @@
 #include "rilo/io/scan_source.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::bytes_of;
-using test::expect_io_error;
-using test::has_warning;
-using test::TempDir;
-using test::write_sequence;
 
 TEST(SequenceSourceTest, KittiSequence) {
   const TempDir folder;
@@ -123,7 +117,7 @@ TEST(SequenceSourceTest, WrittenDriveComesBack) {
   const TempDir folder;
   std::filesystem::create_directory(folder / "velodyne");
   std::filesystem::create_directory(folder / "times_pt");
-  const Sweep written = test::small_sweep();
+  const Sweep written = small_sweep();
   std::vector<float> fractions;
   for (const float time : written.times_s) fractions.push_back(time * 10);
   write_kitti_bin(folder / "velodyne/000000.bin", written);
@@ -194,4 +188,4 @@ TEST(SequenceSourceTest, AzimuthTimesOnlyWhenTold) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

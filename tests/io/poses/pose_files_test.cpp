@@ -5,12 +5,8 @@
 #include "io/io_test_util.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::expect_io_error;
-using test::slurp;
-using test::TempDir;
 
 constexpr std::int64_t kMostStamp = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kLeastStamp = std::numeric_limits<std::int64_t>::min();
@@ -91,7 +87,7 @@ TEST(PoseFileTest, KittiRoundTrip) {
   const Trajectory trajectory = some_trajectory();
   write_kitti_poses(folder / "p.txt", trajectory);
   expect_near(read_kitti_poses(folder / "p.txt"), trajectory, 1e-9);
-  EXPECT_EQ(test::files_in(folder.path()), 1U);
+  EXPECT_EQ(files_in(folder.path()), 1U);
 }
 
 TEST(PoseFileTest, TumRoundTripKeepsStampsExactly) {
@@ -200,4 +196,4 @@ TEST(PoseFileTest, Stamps) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

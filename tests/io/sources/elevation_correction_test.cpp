@@ -6,7 +6,7 @@
 #include "io/io_test_util.hpp"
 #include "io/sources/source_wrappers.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 double elevation(const Eigen::Vector3f& p) {
@@ -49,8 +49,8 @@ TEST(ElevationCorrectionTest, PointsWithoutAzimuthStay) {
 }
 
 TEST(ElevationCorrectionTest, SourceAppliesAndReportsIt) {
-  const test::TempDir folder;
-  folder.write("0.bin", test::bytes_of<float>({10, 0, 0, 0}));
+  const TempDir folder;
+  folder.write("0.bin", bytes_of<float>({10, 0, 0, 0}));
   EXPECT_EQ(open_scan_source(folder.path())->info().elevation_correction_deg, 0);
   SourceOptions options;
   options.elevation_correction_deg = 1;
@@ -62,4 +62,4 @@ TEST(ElevationCorrectionTest, SourceAppliesAndReportsIt) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -9,7 +9,7 @@
 #include "io/io_test_util.hpp"
 #include "io/sources/source_wrappers.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -99,9 +99,9 @@ TEST(PrefetchSourceTest, ErrorsComeInTheirTurn) {
   Fixture f({6, {2, 3}, {}});
   EXPECT_EQ(f.source.next()->stamp_ns, 0);
   EXPECT_EQ(f.source.next()->stamp_ns, 1);
-  test::expect_io_error([&] { f.source.next(); }, {"sweep, 2: bad"});
+  expect_io_error([&] { f.source.next(); }, {"sweep, 2: bad"});
   EXPECT_EQ(f.source.current_name(), "sweep 2");
-  test::expect_io_error([&] { f.source.next(); }, {"sweep, 3: bad"});
+  expect_io_error([&] { f.source.next(); }, {"sweep, 3: bad"});
   EXPECT_EQ(f.source.next()->stamp_ns, 4);
   EXPECT_EQ(f.source.next()->stamp_ns, 5);
   EXPECT_FALSE(f.source.next());
@@ -146,4 +146,4 @@ TEST(PrefetchSourceTest, DestroyedAtAnyTime) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

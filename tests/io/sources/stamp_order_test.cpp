@@ -4,23 +4,20 @@
 #include "io/ros/ros_bytes.hpp"
 #include "io/sources/source_wrappers.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::has_warning;
-using test::TempDir;
 
 // A recording of sweeps in the given order; the second number is when each was received.
 std::unique_ptr<ScanSource> recording(const TempDir& folder, const std::vector<Sweep>& sweeps,
                                       const std::vector<std::size_t>& order,
                                       const std::vector<std::int64_t>& late = {}) {
-  auto all = test::recorded(sweeps, MessageEncoding::kCdr);
-  std::vector<test::Recorded> messages;
+  auto all = recorded(sweeps, MessageEncoding::kCdr);
+  std::vector<Recorded> messages;
   for (std::size_t i = 0; i < order.size(); ++i) {
     messages.push_back(all[order[i]]);
     if (!late.empty()) messages.back().received_ns += late[i];
   }
-  return open_scan_source(folder.write("r.mcap", test::mcap_bytes({{"/points", test::kRos2Type}}, messages, {})));
+  return open_scan_source(folder.write("r.mcap", mcap_bytes({{"/points", kRos2Type}}, messages, {})));
 }
 
 std::vector<float> marks(ScanSource& source) {
@@ -31,7 +28,7 @@ std::vector<float> marks(ScanSource& source) {
 
 TEST(StampOrderTest, GapsAreCounted) {
   const TempDir folder;
-  const auto source = recording(folder, test::numbered_sweeps(20), {0, 1, 2, 3, 6, 7, 8, 12, 13});
+  const auto source = recording(folder, numbered_sweeps(20), {0, 1, 2, 3, 6, 7, 8, 12, 13});
   EXPECT_EQ(marks(*source).size(), 9U);
   const StampFaults faults = source->info().faults;
   EXPECT_EQ(faults.gaps, 2U);
@@ -42,7 +39,7 @@ TEST(StampOrderTest, GapsAreCounted) {
 
 TEST(StampOrderTest, DuplicatesAndOldSweepsAreLeftOut) {
   const TempDir folder;
-  const auto source = recording(folder, test::numbered_sweeps(8), {0, 1, 1, 3, 2, 4, 5, 5, 5, 6});
+  const auto source = recording(folder, numbered_sweeps(8), {0, 1, 1, 3, 2, 4, 5, 5, 5, 6});
   EXPECT_EQ(marks(*source), (std::vector<float>{0, 1, 3, 4, 5, 6}));
   const StampFaults faults = source->info().faults;
   EXPECT_EQ(faults.duplicates, 3U);
@@ -53,7 +50,7 @@ TEST(StampOrderTest, DuplicatesAndOldSweepsAreLeftOut) {
 
 TEST(StampOrderTest, AClockThatIsSetBackDoesNotStopTheRun) {
   const TempDir folder;
-  auto sweeps = test::numbered_sweeps(30);
+  auto sweeps = numbered_sweeps(30);
   for (std::size_t i = 10; i < 20; ++i) sweeps[i].stamp_ns -= 3'600'000'000'000;  // an hour
   for (std::size_t i = 20; i < 30; ++i) sweeps[i].stamp_ns -= 3'600'800'000'000;  // and another 0.8 s
   std::vector<std::size_t> order(30);
@@ -68,7 +65,7 @@ TEST(StampOrderTest, AClockThatIsSetBackDoesNotStopTheRun) {
 
 TEST(StampOrderTest, ARepeatedStampWithOtherPointsIsKept) {
   const TempDir folder;
-  auto sweeps = test::numbered_sweeps(4);
+  auto sweeps = numbered_sweeps(4);
   sweeps[2].stamp_ns = sweeps[1].stamp_ns;
   const auto source = recording(folder, sweeps, {0, 1, 2, 3});
   EXPECT_EQ(marks(*source).size(), 4U);
@@ -78,7 +75,7 @@ TEST(StampOrderTest, ARepeatedStampWithOtherPointsIsKept) {
 
 TEST(StampOrderTest, LateSweepsAreCounted) {
   const TempDir folder;
-  const auto source = recording(folder, test::numbered_sweeps(5), {0, 1, 2, 3, 4}, {0, 0, 250'000'000, 90'000'000, 0});
+  const auto source = recording(folder, numbered_sweeps(5), {0, 1, 2, 3, 4}, {0, 0, 250'000'000, 90'000'000, 0});
   EXPECT_EQ(marks(*source).size(), 5U);
   EXPECT_EQ(source->info().faults.late, 1U);
   EXPECT_NEAR(source->info().faults.most_late_s, 0.25, 1e-9);
@@ -88,11 +85,11 @@ TEST(StampOrderTest, WarningsHaveAnEnd) {
   const TempDir folder;
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < 60; ++i) order.push_back(i / 2);
-  const auto source = recording(folder, test::numbered_sweeps(30), order);
+  const auto source = recording(folder, numbered_sweeps(30), order);
   EXPECT_EQ(marks(*source).size(), 30U);
   EXPECT_EQ(source->info().faults.duplicates, 30U);
   EXPECT_LE(source->info().warnings.size(), 21U);
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -5,11 +5,8 @@
 #include "io/sweep_writer.hpp"
 #include "rilo/io/scan_source.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::has_warning;
-using test::TempDir;
 
 TEST(UnusedOptionsTest, OptionsThatMakeNoDifferenceAreNamed) {
   const TempDir folder;
@@ -48,4 +45,4 @@ TEST(UnusedOptionsTest, FieldsOfTheFirstSweep) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -11,7 +11,7 @@
 #include "io/sweeps_source.hpp"
 #include "rilo/io/point_times.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -117,7 +117,7 @@ TEST(OrderTimes, NoneWhereNothingCanBeTold) {
 std::unique_ptr<ScanSource> timed_by_order(const std::vector<std::vector<Eigen::Vector3f>>& clouds) {
   std::vector<Sweep> sweeps(clouds.size());
   for (std::size_t i = 0; i < clouds.size(); ++i) sweeps[i].points = clouds[i];
-  return detail::with_order_times(std::make_unique<test::SweepsSource>(std::move(sweeps), kPeriod));
+  return detail::with_order_times(std::make_unique<SweepsSource>(std::move(sweeps), kPeriod));
 }
 
 TEST(OrderTimes, OfASource) {
@@ -139,8 +139,8 @@ TEST(OrderTimes, ASourceInAnotherOrderIsAnError) {
   std::vector<Eigen::Vector3f> shuffled = spinning(0.4, -kTurn).points;
   std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(2));
   const auto source = timed_by_order({shuffled});
-  test::expect_io_error([&] { source->next(); }, {"sweep 0", "do not lie in the order", "azimuth", "none"});
+  expect_io_error([&] { source->next(); }, {"sweep 0", "do not lie in the order", "azimuth", "none"});
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

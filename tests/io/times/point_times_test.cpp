@@ -6,10 +6,9 @@
 
 #include "io/io_test_util.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::expect_io_error;
 using Unit = PointTimeUnit;
 using Reference = PointTimeReference;
 
@@ -273,4 +272,4 @@ TEST(AzimuthTimesTest, ClockwiseAndCounterClockwise) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -9,13 +9,9 @@
 #include "io/sweep_writer.hpp"
 #include "rilo/io/point_times.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::expect_io_error;
-using test::has_warning;
-using test::sweeps_of;
-using test::TempDir;
 using Unit = PointTimeUnit;
 using Reference = PointTimeReference;
 
@@ -158,9 +154,8 @@ std::vector<Sweep> drive(std::size_t sweeps, TimeOf&& time_of) {
 
 std::unique_ptr<ScanSource> recording(const TempDir& folder, const std::vector<Sweep>& sweeps,
                                       const SourceOptions& options = {}) {
-  const auto messages = test::recorded(sweeps, MessageEncoding::kCdr);
-  return open_scan_source(folder.write("r.mcap", test::mcap_bytes({{"/points", test::kRos2Type}}, messages, {})),
-                          options);
+  const auto messages = recorded(sweeps, MessageEncoding::kCdr);
+  return open_scan_source(folder.write("r.mcap", mcap_bytes({{"/points", kRos2Type}}, messages, {})), options);
 }
 
 std::unique_ptr<ScanSource> files(const TempDir& folder, const std::vector<Sweep>& sweeps,
@@ -249,15 +244,15 @@ TEST(WrongTimesTest, HalvesThatCountFromTheWholeSweep) {
 
 TEST(WrongTimesTest, MessagesWithoutStamps) {
   const auto right = drive(14, [](std::size_t, float part) { return 0.1F * part; });
-  auto messages = test::recorded(right, MessageEncoding::kCdr);
+  auto messages = recorded(right, MessageEncoding::kCdr);
   for (std::size_t k = 0; k < right.size(); ++k) {
     Sweep sweep = right[k];
     sweep.stamp_ns = 0;
-    messages[k].bytes = test::message_bytes(test::message_of(sweep), MessageEncoding::kCdr);
+    messages[k].bytes = message_bytes(message_of(sweep), MessageEncoding::kCdr);
   }
-  const test::Topics topics{{"/points", test::kRos2Type}};
+  const Topics topics{{"/points", kRos2Type}};
   const TempDir folder;
-  auto source = open_scan_source(folder.write("r.mcap", test::mcap_bytes(topics, messages, {})));
+  auto source = open_scan_source(folder.write("r.mcap", mcap_bytes(topics, messages, {})));
   auto read = sweeps_of(*source);
   ASSERT_EQ(read.size(), 14U);
   EXPECT_EQ(read[13].stamp_ns, messages[13].received_ns);
@@ -268,7 +263,7 @@ TEST(WrongTimesTest, MessagesWithoutStamps) {
   EXPECT_FALSE(info.stamps_assumed);
 
   for (auto& message : messages) message.received_ns = 0;
-  source = open_scan_source(folder.write("z.mcap", test::mcap_bytes(topics, messages, {})));
+  source = open_scan_source(folder.write("z.mcap", mcap_bytes(topics, messages, {})));
   read = sweeps_of(*source);
   ASSERT_EQ(read.size(), 14U);
   EXPECT_EQ(read[13].stamp_ns, 1'300'000'000);
@@ -290,11 +285,11 @@ TEST(WrongTimesTest, FractionsOfAThinnedTopic) {
 
 TEST(OddPeriodTest, StampsInAnotherUnit) {
   const TempDir folder;
-  test::write_sequence(folder, 4, "0\n100\n200\n300\n");
+  write_sequence(folder, 4, "0\n100\n200\n300\n");
   EXPECT_TRUE(has_warning(open_scan_source(folder.path())->info(), "times.txt say that there is a sweep every 100 s"));
   folder.write("times.txt", "0\n0.1\n0.2\n0.3\n");
   EXPECT_TRUE(open_scan_source(folder.path())->info().warnings.empty());
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

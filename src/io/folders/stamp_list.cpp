@@ -11,7 +11,8 @@
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
-namespace rilo::detail {
+namespace rilo {
+namespace detail {
 namespace {
 
 bool all_digits(std::string_view text) {
@@ -86,4 +87,11 @@ std::vector<std::int64_t> read_stamp_list(const std::filesystem::path& file) {
   return read_lines(file, parse, "a date, seconds, or 19 digits of ns", "Correct the file, or move it away");
 }
 
-}  // namespace rilo::detail
+}  // namespace detail
+
+std::vector<std::int64_t> read_stamps(const std::filesystem::path& file) {
+  return detail::read_lines(file, parse_stamp, "one number, seconds that fit into 64 bits of ns",
+                            "Give one stamp a line, in seconds");
+}
+
+}  // namespace rilo

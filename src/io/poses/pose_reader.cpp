@@ -125,18 +125,6 @@ std::optional<SE3> read_kitti_calibration(const std::filesystem::path& file) {
   return std::nullopt;
 }
 
-std::vector<std::int64_t> read_stamps(const std::filesystem::path& file) {
-  Table table(file, "Give one stamp a line, in seconds");
-  std::vector<std::int64_t> stamps;
-  while (const auto line = table.next()) {
-    const std::string_view text = detail::trimmed(*line);
-    const auto stamp = parse_stamp(text);
-    if (!stamp) table.fail(1, detail::in_quotes(text), "one number, seconds that fit into 64 bits of ns");
-    stamps.push_back(*stamp);
-  }
-  return stamps;
-}
-
 std::vector<SE3> camera_to_lidar(const std::vector<SE3>& T_world_cam, const SE3& T_cam_lidar) {
   const SE3 T_lidar_cam = T_cam_lidar.inverse();
   std::vector<SE3> poses;

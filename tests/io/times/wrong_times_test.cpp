@@ -15,22 +15,22 @@ namespace {
 using Unit = PointTimeUnit;
 using Reference = PointTimeReference;
 
-constexpr std::size_t kSomePoints = 1000;
+constexpr std::size_t kSweepPoints = 1000;
 constexpr std::size_t kWrong = 5;
-constexpr std::int64_t kSomeStamp = 1'700'000'000'000'000'000;
+constexpr std::int64_t kSweepStamp = 1'700'000'000'000'000'000;
 
-Sweep sweep_of(std::size_t points = kSomePoints) {
+Sweep sweep_of(std::size_t points = kSweepPoints) {
   Sweep sweep;
-  sweep.stamp_ns = kSomeStamp;
+  sweep.stamp_ns = kSweepStamp;
   for (std::size_t i = 0; i < points; ++i) sweep.points.emplace_back(static_cast<float>(i) + 1, 2, 3);
   return sweep;
 }
 
-// begin, begin + span · i / kSomePoints, …
+// begin, begin + span · i / kSweepPoints, …
 RawTimes times(double begin, double span, ScalarType type = ScalarType::kFloat64) {
   RawTimes raw{"time", type, {}, {}};
-  for (std::size_t i = 0; i < kSomePoints; ++i) {
-    raw.floats.push_back(begin + span * static_cast<double>(i) / static_cast<double>(kSomePoints));
+  for (std::size_t i = 0; i < kSweepPoints; ++i) {
+    raw.floats.push_back(begin + span * static_cast<double>(i) / static_cast<double>(kSweepPoints));
   }
   return raw;
 }
@@ -60,7 +60,7 @@ TEST(WrongTimesTest, SinglePointsAreNotUsed) {
       decoder.decode(with_wrong(right, wrong), "b", sweep);
       EXPECT_NE(decoder.warning().find("b: 1 of 1000 points"), std::string::npos) << decoder.warning();
       EXPECT_EQ(sweep.stamp_ns, expected.stamp_ns);
-      for (std::size_t i = 0; i < kSomePoints; ++i) {
+      for (std::size_t i = 0; i < kSweepPoints; ++i) {
         EXPECT_EQ(sweep.points[i].allFinite(), i != kWrong);
         EXPECT_EQ(sweep.times_s[i], i == kWrong ? 0 : expected.times_s[i]);
       }
@@ -75,7 +75,7 @@ TEST(WrongTimesTest, APacketOfThem) {
   Sweep sweep = sweep_of();
   decoder.decode(raw, "a", sweep);
   EXPECT_NE(decoder.warning().find("13 of 1000"), std::string::npos);
-  EXPECT_EQ(sweep.stamp_ns, kSomeStamp);
+  EXPECT_EQ(sweep.stamp_ns, kSweepStamp);
 }
 
 TEST(WrongTimesTest, ManyAreAFault) {
@@ -144,8 +144,8 @@ std::vector<Sweep> drive(std::size_t sweeps, TimeOf&& time_of) {
   for (std::size_t k = 0; k < sweeps; ++k) {
     Sweep sweep = sweep_of();
     sweep.stamp_ns += static_cast<std::int64_t>(k) * 100'000'000;
-    for (std::size_t i = 0; i < kSomePoints; ++i) {
-      sweep.times_s.push_back(time_of(k, static_cast<float>(i) / static_cast<float>(kSomePoints)));
+    for (std::size_t i = 0; i < kSweepPoints; ++i) {
+      sweep.times_s.push_back(time_of(k, static_cast<float>(i) / static_cast<float>(kSweepPoints)));
     }
     all.push_back(std::move(sweep));
   }
@@ -215,7 +215,7 @@ TEST(WrongTimesTest, TheSameForAllPointsInAToldUnit) {
   options.point_time_unit = Unit::kSeconds;
   const TempDir folder;
   const auto source = recording(folder, drive(3, [](std::size_t, float) { return 1.0F; }), options);
-  EXPECT_EQ(source->next()->times_s, std::vector<float>(kSomePoints, 1.0F));
+  EXPECT_EQ(source->next()->times_s, std::vector<float>(kSweepPoints, 1.0F));
 }
 
 TEST(WrongTimesTest, AClockThatStartsAtZero) {
@@ -239,7 +239,7 @@ TEST(WrongTimesTest, HalvesThatCountFromTheWholeSweep) {
   const auto read = sweeps_of(*source);
   ASSERT_EQ(read.size(), 12U);
   EXPECT_FLOAT_EQ(read[1].times_s[0], 0.05F);
-  EXPECT_EQ(read[1].stamp_ns, kSomeStamp + 100'000'000);
+  EXPECT_EQ(read[1].stamp_ns, kSweepStamp + 100'000'000);
 }
 
 TEST(WrongTimesTest, MessagesWithoutStamps) {
@@ -276,7 +276,7 @@ TEST(WrongTimesTest, MessagesWithoutStamps) {
 TEST(WrongTimesTest, FractionsOfAThinnedTopic) {
   auto sweeps = drive(4, [](std::size_t, float part) { return part; });
   for (std::size_t k = 0; k < sweeps.size(); ++k)
-    sweeps[k].stamp_ns = kSomeStamp + static_cast<std::int64_t>(k) * 300'000'000;
+    sweeps[k].stamp_ns = kSweepStamp + static_cast<std::int64_t>(k) * 300'000'000;
   const TempDir folder;
   const auto source = recording(folder, sweeps);
   sweeps_of(*source);

@@ -121,7 +121,7 @@ int replay(ViewFlags flags) {
   send_sweeps(live, run, source.get());
   if (!source) send_map(live, run);
   live.viewer().finish();
-  wait_for_signal();
+  InterruptGuard::wait();
   return kSuccess;
 }
 

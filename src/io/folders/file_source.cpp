@@ -59,7 +59,7 @@ std::optional<std::string> promised_field(ScanListing& listing, const SourceOpti
 }
 
 std::optional<std::string> promised_times(ScanListing& listing, const SourceOptions& options) {
-  const auto field = promised_field(listing, options);
+  auto field = promised_field(listing, options);
   if (listing.column_points > 0) return "the order of the points, fractions of the sweep since its stamp";
   if (!listing.fraction_files.empty()) return "times_pt, fractions of the sweep since its stamp";
   return field;

@@ -85,7 +85,7 @@ fs::path find_metadata(const fs::path& path, const Contents& contents) {
   const fs::path whole = fs::absolute(path, error).lexically_normal();
   const bool in_folder = is_folder(path);
   const fs::path named = whole.has_filename() ? whole : whole.parent_path();  // "bag/" is "bag"
-  const fs::path twin = in_folder ? fs::path(named).concat(".json") : fs::path(named).replace_extension(".json");
+  fs::path twin = in_folder ? fs::path(named).concat(".json") : fs::path(named).replace_extension(".json");
   if (path_exists(twin)) return twin;
   const std::vector<fs::path> found = metadata_in(in_folder ? named : named.parent_path());
   if (found.size() == 1) return found[0];

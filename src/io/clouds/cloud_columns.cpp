@@ -198,6 +198,12 @@ std::vector<FieldInfo> describe_fields(const std::vector<Field>& fields, const F
   return described;
 }
 
+double read_value(const ColumnView& column) {
+  double first = 0;
+  for_each_value(column, 1, [&](std::size_t /*i*/, auto value) { first = static_cast<double>(value); });
+  return first;
+}
+
 void read_column(const ColumnView& column, std::vector<double>& values) {
   for_each_value(column, values.size(), [&](std::size_t i, auto value) { values[i] = static_cast<double>(value); });
 }

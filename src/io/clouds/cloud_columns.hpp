@@ -64,6 +64,8 @@ struct ColumnView {
   bool big_endian = false;
 };
 
+/// The first value of a column.
+double read_value(const ColumnView& column);
 /// All values of a column; `values` has the length.
 void read_column(const ColumnView& column, std::vector<double>& values);
 

@@ -111,12 +111,7 @@ RawCloud read_binary(const PcdBody& body) {
   return assemble_cloud(body.header.fields, body.roles, columns, body.header.points);
 }
 
-struct Unpacked {
-  std::unique_ptr<char[]> data;
-  std::size_t size = 0;
-};
-
-Unpacked decompress(const PcdBody& body) {
+FileBytes decompress(const PcdBody& body) {
   constexpr std::size_t kSizes = 8;
   const std::string_view bytes = body.bytes();
   if (bytes.size() < kSizes) {
@@ -133,7 +128,7 @@ Unpacked decompress(const PcdBody& body) {
     body.fail(body.position(4), "an uncompressed size of " + std::to_string(unpacked) + " bytes",
               "at most 88 times the compressed " + std::to_string(packed));
   }
-  Unpacked result{std::make_unique_for_overwrite<char[]>(unpacked + 1), unpacked};
+  FileBytes result{body.file.path, std::make_unique_for_overwrite<char[]>(unpacked + 1), unpacked};
   const auto wrong = lzf_decompress(bytes.substr(kSizes, packed), std::span(result.data.get(), unpacked));
   if (wrong) {
     body.fail(body.position(kSizes + *wrong), "LZF data that does not give " + std::to_string(unpacked) + " bytes",
@@ -144,7 +139,7 @@ Unpacked decompress(const PcdBody& body) {
 
 // Column after column. Some writers leave the padding fields, named _, out of the data, others do not.
 RawCloud read_compressed(const PcdBody& body) {
-  const Unpacked unpacked = decompress(body);
+  const FileBytes unpacked = decompress(body);
   std::size_t unpadded = 0;
   for (const Field& field : body.header.fields) unpadded += field.name == "_" ? 0 : field.bytes();
   const bool with_padding = unpacked.size == body_size(body, body.header.point_bytes());

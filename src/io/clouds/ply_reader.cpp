@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <string>
 
+#include <fmt/format.h>
+
+#include "io/byte_cursor.hpp"
 #include "io/clouds/cloud_columns.hpp"
 #include "io/clouds/ply_header.hpp"
 #include "io/file_bytes.hpp"
@@ -44,79 +47,47 @@ std::vector<Field> fields_of(const PlyElement& vertex) {
   return fields;
 }
 
-// Walks through binary rows of varying length.
-class BinaryCursor {
- public:
-  explicit BinaryCursor(const PlyBody& body) : body_(body), bytes_(body.bytes()) {}
-
-  std::size_t left() const { return bytes_.size() - offset_; }
-
-  const char* take(std::size_t count, std::size_t size) {
-    std::size_t total = 0;
-    if (__builtin_mul_overflow(count, size, &total) || total > left()) {
-      body_.fail("byte " + std::to_string(body_.header.body_offset + offset_), "the end of the file inside a row",
-                 std::to_string(count) + " values of " + std::to_string(size) + " bytes");
-    }
-    const char* place = bytes_.data() + offset_;
-    offset_ += total;
-    return place;
-  }
-
-  /// A list's length.
-  std::size_t take_length(ScalarType type) {
-    const std::size_t size = size_of(type);
-    const char* place = take(1, size);
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t digit = body_.big_endian() ? size - 1 - i : i;
-      value |= std::uint64_t{static_cast<unsigned char>(place[digit])} << (8 * i);
-    }
-    const bool is_signed = type == ScalarType::kInt8 || type == ScalarType::kInt16 || type == ScalarType::kInt32 ||
-                           type == ScalarType::kInt64;
-    if (is_signed && (value >> (8 * size - 1)) != 0) {
-      body_.fail("byte " + std::to_string(body_.header.body_offset + offset_ - size), "a negative length of a list",
-                 "0 or more");
-    }
-    return value;
-  }
-
- private:
-  const PlyBody& body_;
-  std::string_view bytes_;
-  std::size_t offset_ = 0;
-};
+// Each value of a list takes a byte at least.
+std::size_t take_length(const PlyBody& body, ByteCursor& cursor, ScalarType type) {
+  const char* place = cursor.take_bytes(size_of(type), "a list's length").data();
+  const double length = read_value({place, 0, type, body.big_endian()});
+  if (length >= 0 && length <= static_cast<double>(cursor.left())) return static_cast<std::size_t>(length);
+  body.fail("byte " + std::to_string(body.header.body_offset + cursor.offset() - size_of(type)),
+            fmt::format("a list of {:.0f} values", length),
+            "0 or more, and at most one for each of the " + std::to_string(cursor.left()) + " bytes left");
+}
 
 // One row; `rows` is null for an element that is skipped.
-void walk_binary_row(BinaryCursor& cursor, const PlyElement& element, PackedRows* rows) {
+void walk_binary_row(const PlyBody& body, ByteCursor& cursor, const PlyElement& element, PackedRows* rows) {
   if (rows != nullptr) rows->add_row();
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& property = element.properties[i];
-    const std::size_t count = property.list_count ? cursor.take_length(*property.list_count) : 1;
-    const char* value = cursor.take(count, size_of(property.type));
+    const std::size_t count = property.list_count ? take_length(body, cursor, *property.list_count) : 1;
+    const char* value = cursor.take_bytes(count * size_of(property.type), "a row").data();
     if (rows != nullptr && rows->wanted(i)) rows->store_bytes(i, value);
   }
 }
 
-void pass_over_binary(const PlyBody& body, BinaryCursor& cursor, const PlyElement& element) {
+void pass_over_binary(const PlyBody& body, ByteCursor& cursor, const PlyElement& element) {
   check_count(body, element, element.least_bytes(), cursor.left());
   if (!element.has_list()) {
-    cursor.take(element.count, element.least_bytes());
+    cursor.take_bytes(element.count * element.least_bytes(), "rows");
     return;
   }
-  for (std::size_t i = 0; i < element.count; ++i) walk_binary_row(cursor, element, nullptr);
+  for (std::size_t i = 0; i < element.count; ++i) walk_binary_row(body, cursor, element, nullptr);
 }
 
-RawCloud read_binary_vertices(const PlyBody& body, BinaryCursor& cursor, const PlyElement& vertex,
+RawCloud read_binary_vertices(const PlyBody& body, ByteCursor& cursor, const PlyElement& vertex,
                               const FieldRoles& roles) {
   const std::vector<Field> fields = fields_of(vertex);
   const std::size_t stride = vertex.least_bytes();
   check_count(body, vertex, stride, cursor.left());
   if (vertex.has_list()) {
     PackedRows rows(fields, roles);
-    for (std::size_t i = 0; i < vertex.count; ++i) walk_binary_row(cursor, vertex, &rows);
+    for (std::size_t i = 0; i < vertex.count; ++i) walk_binary_row(body, cursor, vertex, &rows);
     return assemble_cloud(fields, roles, rows.columns(body.big_endian()), vertex.count);
   }
-  const char* place = cursor.take(vertex.count, stride);
+  const char* place = cursor.take_bytes(vertex.count * stride, "rows").data();
   std::vector<ColumnView> columns;
   for (const Field& field : fields) {
     columns.push_back({place, stride, field.type, body.big_endian()});
@@ -207,7 +178,8 @@ RawCloud read_ply(const std::filesystem::path& file, const std::string& time_fie
   const detail::PlyElement& vertex = detail::vertex_of(body);
   const detail::FieldRoles roles = detail::find_roles(detail::fields_of(vertex), time_field, file);
   if (header.encoding == detail::PlyEncoding::kAscii) return detail::read_ascii(body, vertex, roles);
-  detail::BinaryCursor cursor(body);
+  const detail::BytesOrigin origin{file};
+  detail::ByteCursor cursor(body.bytes(), origin, header.body_offset);
   for (const detail::PlyElement& element : header.elements) {
     if (&element == &vertex) break;
     detail::pass_over_binary(body, cursor, element);

@@ -95,9 +95,9 @@ TEST(PlyTest, LyingHeaders) {
         {"element 'a'", "18446744073709551615 rows"});
   fails(binary + "element a 1\nproperty list uint double l\nelement vertex 0\n" + xyz + "end_header\n" +
             bytes_of<std::uint32_t>({0xFFFFFFFF}),
-        {"inside a row", "4294967295 values"});
+        {"a list of 4294967295 values", "bytes left"});
   fails(binary + "element a 1\nproperty list char float l\nelement vertex 0\n" + xyz + "end_header\n\xFF",
-        {"negative length"});
+        {"a list of -1 values"});
   fails(ascii + "element vertex 4000000000\n" + xyz + "end_header\n1 2 3\n", {"4000000000 rows"});
   fails(ascii + "element vertex 2\n" + xyz + "property list uchar int l\nend_header\n1 2 3 9999999 1\n1 2 3 0 \n",
         {"line 9", "too few values"});

@@ -6,6 +6,11 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # A compile of one of our files takes up to 1 GB: RILO_JOBS=1 suits a small machine.
 JOBS="${RILO_JOBS:-$(nproc)}"
 
+# Prints the comment at the top of the script.
+print_help() {
+  sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'
+}
+
 # Prints to stderr and stops.
 die() {
   echo "${0##*/}: $*" >&2

@@ -16,7 +16,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 root="$PWD"
 
 usage() {
-  sed -n '4,12s/^# \{0,1\}//p' "scripts/${0##*/}" >&2
+  print_help >&2
   exit 2
 }
 

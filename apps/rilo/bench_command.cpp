@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -15,6 +14,7 @@
 #include "checks.hpp"
 #include "command.hpp"
 #include "console/text.hpp"
+#include "io/file_bytes.hpp"
 #include "rilo/config/config_file.hpp"
 #include "source_flags.hpp"
 
@@ -101,8 +101,7 @@ void leave_out_missing(const BenchFlags& flags, BenchPlan& plan) {
   std::string missing;
   std::vector<BenchSequence> there;
   for (const BenchSequence& sequence : plan.sequences) {
-    std::error_code ignored;
-    if (std::filesystem::exists(sequence.path, ignored)) {
+    if (detail::path_exists(sequence.path)) {
       there.push_back(sequence);
     } else {
       missing += (missing.empty() ? "" : ", ") + sequence.path.string();

@@ -1,7 +1,6 @@
 #include "checks.hpp"
 
 #include <cstdint>
-#include <limits>
 #include <string>
 
 #include <CLI/CLI.hpp>

@@ -1,11 +1,8 @@
 // rilo info: what a data set holds.
 #include <algorithm>
-#include <bitset>
-#include <cmath>
 #include <functional>
 #include <iostream>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -18,12 +15,13 @@
 #include "console/text.hpp"
 #include "evaluation/percentile.hpp"
 #include "info_text.hpp"
-#include "io/ground_truth.hpp"
+#include "io/folders/ground_truth.hpp"
+#include "io/stamp_difference.hpp"
+#include "results/data_survey.hpp"
 #include "results/metrics_json.hpp"
 #include "results/run_metrics.hpp"
 #include "results/unusable_sweeps.hpp"
 #include "rilo/io/io_error.hpp"
-#include "rilo/io/point_times.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "rilo/io/trajectory_files.hpp"
 #include "session/compensation_trial.hpp"
@@ -39,83 +37,6 @@ struct InfoFlags {
   bool json = false;
   bool all = false;
 };
-
-constexpr std::size_t kSweepsLookedAt = 50;  // sweeps whose points are read, spread evenly over the data by skipping
-
-constexpr std::size_t kSectors = 36;  // of 10°
-using Directions = std::bitset<kSectors>;
-
-struct Survey {
-  bool complete = false;  // every sweep is looked at
-  std::size_t sweeps = 0;
-  std::size_t read = 0;
-  std::size_t points = 0;
-  std::size_t least = 0;
-  std::size_t most = 0;
-  std::size_t not_finite = 0;
-  std::size_t usable = 0;  // neither too near nor too far, as far as they are looked at
-  std::vector<double> ranges;
-  Directions directions;        // in which any sweep has points
-  std::size_t sectors_max = 0;  // of one sweep
-  std::vector<std::int64_t> stamps;
-  float times_begin = 0;
-  float times_end = 0;
-  bool timed = false;
-  bool in_order = false;  // the points of the first sweep, as a spinning sensor measured them
-  int rings = 0;
-  bool intensity = false;
-};
-
-std::size_t sector_of(const Eigen::Vector3f& p) {
-  const double turn = std::atan2(static_cast<double>(p.y()), static_cast<double>(p.x())) / (2.0 * std::numbers::pi);
-  return std::min(static_cast<std::size_t>((turn + 0.5) * kSectors), kSectors - 1);
-}
-
-void look_at(const Sweep& sweep, Survey& survey) {
-  const std::size_t n = sweep.points.size();
-  survey.least = survey.read == 0 ? n : std::min(survey.least, n);
-  survey.most = std::max(survey.most, n);
-  survey.points += n;
-  if (survey.read++ == 0) survey.in_order = order_times(sweep.points, 1).has_value();
-  const std::size_t stride = std::max<std::size_t>(1, n / 2000);  // enough for percentiles
-  Directions directions;
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool finite = sweep.points[i].allFinite();
-    survey.not_finite += finite ? 0 : 1;
-    if (finite && i % stride == 0) {
-      const double range_m = sweep.points[i].cast<double>().norm();
-      survey.usable += within_range(range_m, PreprocessConfig{}) ? 1 : 0;
-      survey.ranges.push_back(range_m);
-      directions.set(sector_of(sweep.points[i]));
-    }
-  }
-  survey.directions |= directions;
-  survey.sectors_max = std::max(survey.sectors_max, directions.count());
-  if (!sweep.times_s.empty()) {
-    const auto [begin, end] = std::minmax_element(sweep.times_s.begin(), sweep.times_s.end());
-    survey.times_begin = survey.timed ? std::min(survey.times_begin, *begin) : *begin;
-    survey.times_end = survey.timed ? std::max(survey.times_end, *end) : *end;
-    survey.timed = true;
-  }
-  for (const std::uint16_t ring : sweep.rings) survey.rings = std::max(survey.rings, static_cast<int>(ring) + 1);
-  survey.intensity = survey.intensity || !sweep.intensities.empty();
-}
-
-Survey survey_of(ScanSource& source, bool all) {
-  Survey survey;
-  const std::size_t total = source.size().value_or(0);
-  // Odd: of halves of revolutions in turn, both are looked at.
-  const std::size_t step = all || total <= kSweepsLookedAt ? 1 : (total / kSweepsLookedAt) | 1;
-  survey.complete = step == 1;
-  while (const auto sweep = source.next()) {
-    look_at(*sweep, survey);
-    survey.stamps.push_back(sweep->stamp_ns);
-    // The last one is looked at in any case: its stamp ends the recording.
-    const std::size_t left = total - std::min(total, source.current_index() + 1);
-    survey.sweeps += 1 + (left > 1 ? source.skip(std::min(step, left) - 1) : 0);
-  }
-  return survey;
-}
 
 /// Raw or compensated, by how the first sweeps fit.
 nlohmann::json compensation_json(const InfoFlags& flags) {
@@ -143,23 +64,23 @@ nlohmann::json field_names(const SourceInfo& info, const std::function<bool(cons
 }
 
 /// What is wrong, of the source and of its points.
-std::vector<std::string> warnings_of(const Survey& survey, const SourceInfo& info) {
+std::vector<std::string> warnings_of(const DataSurvey& survey, const SourceInfo& info) {
   std::vector<std::string> warnings = info.warnings;
   if (survey.read > 0 && survey.usable == 0) warnings.push_back(why_unusable(survey.points, survey.ranges, {}));
   return warnings;
 }
 
 /// Degrees of the horizon with points, of one sweep at most and of all that were read.
-nlohmann::json directions_json(const Survey& survey) {
-  constexpr std::size_t kDegrees = 360 / kSectors;
+nlohmann::json directions_json(const DataSurvey& survey) {
+  constexpr std::size_t kDegrees = 360 / DataSurvey::kSectors;
   return {{"one_sweep_deg", kDegrees * survey.sectors_max}, {"all_sweeps_deg", kDegrees * survey.directions.count()}};
 }
 
-nlohmann::json stamps_json(const Survey& survey, const SourceInfo& info) {
+nlohmann::json stamps_json(const DataSurvey& survey, const SourceInfo& info) {
   nlohmann::json json = {{"period_s", info.period_s}, {"assumed", info.stamps_assumed}};
   if (survey.stamps.empty()) return json;
   json["begin_s"] = format_stamp(survey.stamps.front());
-  json["span_s"] = static_cast<double>(survey.stamps.back() - survey.stamps.front()) * 1e-9;
+  json["span_s"] = detail::seconds_between(survey.stamps.front(), survey.stamps.back());
   if (survey.complete) {
     const StampFaults& faults = info.faults;
     json["gaps"] = faults.gaps;
@@ -199,7 +120,7 @@ std::optional<nlohmann::json> topics_to_choose(const InfoFlags& flags) {
 }
 
 nlohmann::json describe(const InfoFlags& flags, ScanSource& source) {
-  const Survey survey = survey_of(source, flags.all);
+  const DataSurvey survey = survey_of(source, flags.all);
   const SourceInfo info = source.info();
   const double mean = survey.read == 0 ? 0.0 : static_cast<double>(survey.points) / static_cast<double>(survey.read);
   nlohmann::json json = {

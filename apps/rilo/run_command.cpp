@@ -156,7 +156,7 @@ void show_the_rest(const RunFlags& flags, const RunRecord& run, LiveView& view) 
     std::cerr << "rilo: warning: " << error.what() << '\n';
   }
   view.viewer().finish();
-  wait_for_signal();
+  InterruptGuard::wait();
 }
 
 /// A map without a folder belongs to the other results; without a map nothing needs its intensities.

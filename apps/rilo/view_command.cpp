@@ -11,7 +11,6 @@
 #include "checks.hpp"
 #include "command.hpp"
 #include "console/interrupt.hpp"
-#include "console/text.hpp"
 #include "results/live_view.hpp"
 #include "results/saved_run.hpp"
 #include "rilo/config/config_file.hpp"
@@ -122,7 +121,7 @@ int replay(ViewFlags flags) {
   send_sweeps(live, run, source.get());
   if (!source) send_map(live, run);
   live.viewer().finish();
-  wait_for_signal();
+  InterruptGuard::wait();
   return kSuccess;
 }
 

@@ -1,19 +1,10 @@
 #include "view_flags.hpp"
 
-#include <chrono>
-#include <thread>
-
 #include <CLI/CLI.hpp>
 
 #include "checks.hpp"
-#include "command.hpp"
-#include "console/interrupt.hpp"
 
 namespace rilo::cli {
-
-void wait_for_signal() {
-  while (InterruptGuard::signal() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-}
 
 void add_address_flag(CLI::App& command, const std::string& name, ViewOptions& options) {
   command

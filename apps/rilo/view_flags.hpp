@@ -8,9 +8,6 @@
 
 namespace rilo::cli {
 
-/// Waits until Ctrl-C or SIGTERM.
-void wait_for_signal();
-
 /// What the rest of the options of a viewer are called, `--view-address` or `--address`.
 void add_address_flag(CLI::App& command, const std::string& name, ViewOptions& options);
 

@@ -1,16 +1,17 @@
 #include "config/bench_plan.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <functional>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "config/yaml_document.hpp"
+#include "io/file_bytes.hpp"
+#include "io/folder_files.hpp"
+#include "io/text.hpp"
 #include "rilo/config/config_file.hpp"
 
 namespace rilo {
@@ -39,13 +40,15 @@ class PlanReader {
               {"repeats", [&](const Node& node) { plan.repeats = count(node, "repeats", 1, kMostRepeats); }},
               {"skip_missing",
                [&](const Node& node) {
-                 plan.skip_missing = word(node, "skip_missing", {"false", "true"}) == 1;
+                 plan.skip_missing = word(node, "skip_missing", {"false", "true"}) == "true";
                }},
               {"peers", [&](const Node& node) { plan.peers = peers(node); }},
               {"peer_figures", [&](const Node& node) { plan.peer_figures = path(node, "peer_figures", root_); }},
               {"tables", [&](const Node& node) {
-                 constexpr PaperTables kValues[] = {PaperTables::kNone, PaperTables::kKitti, PaperTables::kM2dgr};
-                 plan.tables = kValues[word(node, "tables", {"none", "kitti", "m2dgr"})];
+                 const std::string name = word(node, "tables", {"none", "kitti", "m2dgr"});
+                 plan.tables = name == "kitti"   ? PaperTables::kKitti
+                               : name == "m2dgr" ? PaperTables::kM2dgr
+                                                 : PaperTables::kNone;
                }}});
     if (plan.configurations.empty()) plan.configurations.push_back({"default", {}, {}, {}});
     check_peer_names(root, plan);
@@ -128,21 +131,19 @@ class PlanReader {
               file("ground_truth", s.ground_truth),
               {"pose_frame",
                [&](const Node& n) {
-                 s.camera_frame = word(n, "pose_frame", {"lidar", "camera"}) == 1;
+                 s.camera_frame = word(n, "pose_frame", {"lidar", "camera"}) == "camera";
                }},
               {"max_gap_s", [&](const Node& n) { s.max_gap_s = number(n, "max_gap_s", 0, 1e6, "s"); }},
               whole("start", s.start),
               whole("count", s.count),
               {"point_times",
                [&](const Node& n) {
-                 constexpr PointTimes kValues[] = {PointTimes::kAuto, PointTimes::kAzimuth, PointTimes::kOrder,
-                                                   PointTimes::kNone};
-                 s.point_times = kValues[word(n, "point_times", {"auto", "azimuth", "order", "none"})];
+                 s.point_times = parse_point_times(word(n, "point_times", {"auto", "azimuth", "order", "none"}));
                }},
               {"elevation_correction", [&](const Node& n) { s.elevation_correction_deg = elevation(n); }},
               {"group", [&](const Node& n) { s.group = text(n, "group"); }},
               {"peers", [&](const Node& n) { s.peers = peers(n); }}});
-    if (s.name.empty()) s.name = name_of(s.path);
+    if (s.name.empty()) s.name = detail::last_name(s.path);
     return s;
   }
 
@@ -160,8 +161,7 @@ class PlanReader {
 
   void load_file(const Node& node, BenchConfiguration& c) const {
     const fs::path file = path(node, "config", file_.parent_path());
-    std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) {
+    if (!detail::is_file(file)) {
       refuse(node, "there is no file " + detail::quoted(file.string()), "a configuration file (YAML)",
              "Relative paths count from the folder of this file");
     }
@@ -218,11 +218,7 @@ class PlanReader {
   template <typename Number>
   std::optional<Number> parsed(const Node& node) const {
     if (!node.IsScalar() || node.Tag() == "!") return std::nullopt;  // "!": in quotes, that is text
-    const std::string& text = node.Scalar();
-    Number value{};
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
-    return value;
+    return detail::parse_number<Number>(node.Scalar());
   }
 
   double number(const Node& node, const std::string& what, double least, double most, const std::string& unit) const {
@@ -239,10 +235,10 @@ class PlanReader {
     refuse(node, what + " is " + kind_of(node), fmt::format("a whole number from {} to {}", least, most));
   }
 
-  std::size_t word(const Node& node, const std::string& what, const std::vector<std::string>& words) const {
+  std::string word(const Node& node, const std::string& what, const std::vector<std::string>& words) const {
     std::string all;
     for (std::size_t i = 0; i < words.size(); ++i) {
-      if (node.IsScalar() && node.Scalar() == words[i]) return i;
+      if (node.IsScalar() && node.Scalar() == words[i]) return words[i];
       all += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
     }
     refuse(node, what + " is " + kind_of(node), all);
@@ -250,11 +246,6 @@ class PlanReader {
 
   static std::string override_place(const std::string& entry) {
     return "--set " + entry.substr(0, detail::kLongestQuote);
-  }
-
-  static std::string name_of(const fs::path& path) {
-    const fs::path plain = path.lexically_normal();
-    return (plain.has_filename() ? plain : plain.parent_path()).filename().string();
   }
 
   fs::path file_;

@@ -1,22 +1,13 @@
 #include "rilo/config/config_key.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
 
 #include <fmt/format.h>
 
+#include "io/text.hpp"
+
 namespace rilo {
 namespace {
-
-template <typename Number>
-std::optional<Number> parse_number(std::string_view text) {
-  Number value{};
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return value;
-}
 
 // Shortest text that reads back as the same number, and that looks like a real one.
 std::string real_text(double value) {
@@ -58,13 +49,13 @@ struct Set {
 
   // Comparisons with NaN are false.
   bool operator()(const ConfigKey::Real& key) const {
-    const auto value = parse_number<double>(text);
+    const auto value = detail::parse_number<double>(text);
     if (!value || !(*value >= key.least && *value <= key.most)) return false;
     *key.member = *value;
     return true;
   }
   bool operator()(const ConfigKey::Integer& key) const {
-    const auto value = parse_number<int>(text);
+    const auto value = detail::parse_number<int>(text);
     if (!value || *value < key.least || *value > key.most) return false;
     *key.member = *value;
     return true;

@@ -1,12 +1,11 @@
 #include "config/yaml_document.hpp"
 
-#include <fstream>
 #include <optional>
 #include <sstream>
-#include <system_error>
 
 #include <yaml-cpp/eventhandler.h>
 
+#include "io/file_bytes.hpp"
 #include "rilo/config/config_file.hpp"
 
 namespace rilo::detail {
@@ -62,21 +61,16 @@ std::string kind_of(const YAML::Node& node) {
 }
 
 std::string read_yaml_file(const std::filesystem::path& file, const std::string& expected, const std::string& remedy) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    const bool exists = std::filesystem::exists(file, error);
-    throw ConfigError({file, "", exists ? "not a regular file" : "no such file", expected, remedy});
+  if (!is_file(file)) {
+    throw ConfigError({file, "", path_exists(file) ? "not a regular file" : "no such file", expected, remedy});
   }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  text.resize(kLargestFile + 1);
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad() || (stream.fail() && !stream.eof())) {
-    throw ConfigError({file, "", "it cannot be read", "a readable file", "Check its permissions"});
+  try {
+    const FileBytes bytes = read_file(file, kLargestFile + 1);
+    if (bytes.size > kLargestFile) throw IoError({file, "", "more than 1 MiB", expected, "Check the path"});
+    return std::string(bytes.view());
+  } catch (const IoError& error) {
+    throw ConfigError(error.problem());
   }
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > kLargestFile) throw ConfigError({file, "", "more than 1 MiB", expected, "Check the path"});
-  return text;
 }
 
 YAML::Node parse_yaml(std::string_view yaml, const std::string& name, const std::string& hint) {

@@ -1,6 +1,8 @@
 #include "console/interrupt.hpp"
 
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 namespace rilo {
 
@@ -36,5 +38,9 @@ InterruptGuard::~InterruptGuard() {
 }
 
 int InterruptGuard::signal() { return received; }
+
+void InterruptGuard::wait() {
+  while (received == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
 
 }  // namespace rilo

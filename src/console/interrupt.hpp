@@ -13,6 +13,9 @@ class InterruptGuard {
 
   /// The signal that came, 0 when none did.
   static int signal();
+
+  /// Until one comes.
+  static void wait();
 };
 
 }  // namespace rilo

@@ -31,9 +31,4 @@ std::string command_line(int argc, const char* const* argv) {
   return valid_utf8(line);
 }
 
-std::string last_name(const std::filesystem::path& path) {
-  const std::filesystem::path plain = path.lexically_normal();
-  return (plain.has_filename() ? plain : plain.parent_path()).filename().string();
-}
-
 }  // namespace rilo

@@ -1,13 +1,12 @@
 // Text for people and for files.
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
+#include "io/folder_files.hpp"
 #include "io/text.hpp"
 
 namespace rilo {
@@ -28,8 +27,6 @@ std::string shell_quoted(const std::string& word);
 std::string command_line(int argc, const char* const* argv);
 
 using detail::counted;
-
-/// Last part of a path, also when it ends in a slash.
-std::string last_name(const std::filesystem::path& path);
+using detail::last_name;
 
 }  // namespace rilo

@@ -49,7 +49,6 @@ void add_match(const Trajectory& truth, std::size_t i, const Trajectory& estimat
                MatchedPoses& matched) {
   matched.truth.push_back(truth[i].T_odom_lidar);
   matched.estimate.push_back(estimate[j].T_odom_lidar);
-  matched.truth_index.push_back(i);
   matched.estimate_index.push_back(j);
 }
 

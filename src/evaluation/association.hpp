@@ -13,7 +13,6 @@ namespace rilo {
 struct MatchedPoses {
   std::vector<SE3> truth;
   std::vector<SE3> estimate;
-  std::vector<std::size_t> truth_index;     ///< position in the trajectory that was given
   std::vector<std::size_t> estimate_index;  ///< position in the trajectory that was given
 };
 

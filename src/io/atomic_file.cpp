@@ -194,10 +194,4 @@ void write_atomically(const fs::path& target, std::string_view bytes) {
   file.commit();
 }
 
-void write_atomically(const fs::path& target, const std::function<void(AtomicFile&)>& write) {
-  AtomicFile file(target);
-  write(file);
-  file.commit();
-}
-
 }  // namespace rilo

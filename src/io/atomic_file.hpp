@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,8 +54,5 @@ std::optional<std::string> name_of_unfinished(std::string_view name);
 
 /// The whole file in one call.
 void write_atomically(const std::filesystem::path& target, std::string_view bytes);
-
-/// Calls `write` with an open AtomicFile and commits when it returns.
-void write_atomically(const std::filesystem::path& target, const std::function<void(AtomicFile&)>& write);
 
 }  // namespace rilo

@@ -10,9 +10,10 @@
 
 namespace rilo::detail {
 
-/// Whether there is anything of that name, or a regular file; false also when one may not look.
+/// Whether there is anything of that name, a regular file or a folder; false also when one may not look.
 bool path_exists(const std::filesystem::path& path);
 bool is_file(const std::filesystem::path& path);
+bool is_folder(const std::filesystem::path& path);
 
 /// A file that is read in pieces.
 class RandomAccessFile {

@@ -1,6 +1,7 @@
 // Text files: lines, words and numbers, with their places for messages.
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -45,7 +46,17 @@ std::vector<std::string_view> words_of(std::string_view line);
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
 
-/// The whole text as a number ("nan" and "inf" included), or nothing.
+/// The whole text as a number, as C++ prints one, or nothing.
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number value{};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return value;
+}
+
+/// The same with a plus sign before it ("nan" and "inf" included); too small a number is zero.
 std::optional<double> parse_double(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
 std::optional<std::uint64_t> parse_unsigned(std::string_view text);

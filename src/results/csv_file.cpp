@@ -1,11 +1,11 @@
 #include "results/csv_file.hpp"
 
 #include <algorithm>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "io/file_bytes.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
@@ -28,9 +28,8 @@ std::vector<std::string> split_cells(std::string line) {
 
 CsvFile::CsvFile(std::filesystem::path file, const CsvKind& kind)
     : file_(std::move(file)), kind_(kind), stream_(file_, std::ios::binary) {
-  std::error_code ignored;
   std::string text;
-  if (!std::filesystem::is_regular_file(file_, ignored) || !stream_ || !std::getline(stream_, text)) {
+  if (!detail::is_file(file_) || !stream_ || !std::getline(stream_, text)) {
     throw IoError({file_, "", "no file that can be read", kind_.expected, kind_.missing_remedy});
   }
   header_ = split_cells(text);

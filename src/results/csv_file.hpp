@@ -1,13 +1,14 @@
 // Comma separated values with a header, read by the names of the columns.
 #pragma once
 
-#include <charconv>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/text.hpp"
 
 namespace rilo {
 
@@ -36,12 +37,9 @@ class CsvFile {
   /// @throws IoError: no number.
   template <typename Number>
   Number number(std::string_view column) const {
-    const std::string& text = cell(column);
-    Number value{};
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || stop != end) refuse(column, "a number");
-    return value;
+    const auto value = detail::parse_number<Number>(cell(column));
+    if (!value) refuse(column, "a number");
+    return *value;
   }
 
   /// @throws IoError: of the cell in this line.

@@ -56,9 +56,9 @@ nlohmann::json benchmark_json(const KittiBenchmark& b) {
 std::string benchmark_table(const KittiBenchmark& b, std::size_t sequences) {
   if (!b.pooled_t_rel_pct || !b.pooled_r_rel_deg_100m) return "";
   return fmt::format(
-      "{} sequence{}: t_rel {:.4f} %   r_rel {:.4f} deg/100m   pooled over all segments (KITTI devkit)\n"
+      "{}: t_rel {:.4f} %   r_rel {:.4f} deg/100m   pooled over all segments (KITTI devkit)\n"
       "{:>12} t_rel {:.4f} %   r_rel {:.4f} deg/100m   mean of the sequences' means (most papers)\n",
-      sequences, sequences == 1 ? "" : "s", *b.pooled_t_rel_pct, *b.pooled_r_rel_deg_100m, "",
+      counted(sequences, "sequence"), *b.pooled_t_rel_pct, *b.pooled_r_rel_deg_100m, "",
       b.sequence_mean_t_rel_pct.value_or(0), b.sequence_mean_r_rel_deg_100m.value_or(0));
 }
 

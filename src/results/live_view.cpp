@@ -6,7 +6,7 @@
 
 #include "console/interrupt.hpp"
 #include "console/text.hpp"
-#include "io/ground_truth.hpp"
+#include "io/folders/ground_truth.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/session/session.hpp"
 

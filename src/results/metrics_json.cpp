@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "console/text.hpp"
+#include "io/file_bytes.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
@@ -23,9 +24,12 @@ template <typename T>
 constexpr bool kIsGroup = std::is_class_v<T> && !kIsOptional<T> && !std::is_same_v<T, std::string> &&
                           !std::is_same_v<T, Counts> && !std::is_same_v<T, std::vector<std::string>>;
 
-// The list of keys. `Fields` is a writer or a reader; key(): always written in kAll; maybe(): only when not empty.
-template <typename Fields, typename M>
-void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, TimingMetrics> {
+// Constant to a writer.
+template <typename M, typename Metrics>
+concept Is = std::is_same_v<std::remove_const_t<M>, Metrics>;
+
+// The list of keys. `f` is a writer or a reader; key(): always written in kAll; maybe(): only when not empty.
+void list(auto& f, Is<TimingMetrics> auto& m) {
   f.key("mean", m.mean);
   f.key("median", m.median);
   f.key("p95", m.p95);
@@ -33,16 +37,14 @@ void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, Timin
   f.key("max", m.max);
 }
 
-template <typename Fields, typename M>
-void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, StageMetrics> {
+void list(auto& f, Is<StageMetrics> auto& m) {
   f.key("preprocess", m.preprocess);
   f.key("initial_pose", m.initial_pose);
   f.key("registration", m.registration);
   f.key("map", m.map);
 }
 
-template <typename Fields, typename M>
-void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, ErrorMetrics> {
+void list(auto& f, Is<ErrorMetrics> auto& m) {
   f.key("rmse", m.rmse);
   f.key("mean", m.mean);
   f.key("std", m.std);
@@ -50,8 +52,7 @@ void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, Error
   f.key("max", m.max);
 }
 
-template <typename Fields, typename M>
-void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, EvaluationMetrics> {
+void list(auto& f, Is<EvaluationMetrics> auto& m) {
   f.key("poses", m.poses);
   f.key("path_m", m.path_m);
   f.key("t_rel_pct", m.t_rel_pct);
@@ -71,24 +72,21 @@ void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, Evalu
   f.maybe("truth_instant", m.truth_instant);
 }
 
-template <typename Fields, typename M>
-void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, BudgetMetrics> {
+void list(auto& f, Is<BudgetMetrics> auto& m) {
   f.key("sweep_ms", m.sweep_ms);
   f.key("points_cut", m.points_cut);
   f.key("coarse_cut", m.coarse_cut);
   f.key("over_budget", m.over_budget);
 }
 
-template <typename Fields, typename M>
-void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, TrialMetrics> {
+void list(auto& f, Is<TrialMetrics> auto& m) {
   f.key("sweeps", m.sweeps);
   f.key("better", m.better);
   f.key("raw", m.raw);
   f.key("compensated", m.compensated);
 }
 
-template <typename Fields, typename M>
-void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, StampFaults> {
+void list(auto& f, Is<StampFaults> auto& m) {
   f.key("gaps", m.gaps);
   f.key("missing_sweeps", m.missing);
   f.key("longest_gap_s", m.longest_gap_s);
@@ -100,8 +98,7 @@ void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, Stamp
   f.key("most_late_s", m.most_late_s);
 }
 
-template <typename Fields, typename M>
-void list_data(Fields& f, M& m) {
+void list_data(auto& f, auto& m) {
   f.key("rilo_version", m.rilo_version);
   f.key("command", m.command);
   f.key("data", m.data);
@@ -119,8 +116,7 @@ void list_data(Fields& f, M& m) {
   f.key("warnings", m.warnings);
 }
 
-template <typename Fields, typename M>
-void list_findings(Fields& f, M& m) {
+void list_findings(auto& f, auto& m) {
   f.key("status", m.status);
   f.key("initial_pose", m.initial_pose);
   f.key("initial_pose_reasons", m.initial_pose_reasons);
@@ -142,8 +138,7 @@ void list_findings(Fields& f, M& m) {
   f.maybe("repeats", m.repeats);
 }
 
-template <typename Fields, typename M>
-void list(Fields& f, M& m) requires std::is_same_v<std::remove_const_t<M>, RunMetrics> {
+void list(auto& f, Is<RunMetrics> auto& m) {
   list_data(f, m);
   f.key("frames", m.frames);
   f.key("interrupted", m.interrupted);
@@ -266,9 +261,8 @@ nlohmann::json to_json(const StampFaults& faults) { return json_of(faults, Metri
 
 nlohmann::json read_json_object(const std::filesystem::path& file, const std::string& expected,
                                 const std::string& remedy) {
-  std::error_code ignored;
   std::ifstream stream(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file, ignored) || !stream) {
+  if (!detail::is_file(file) || !stream) {
     throw IoError({file, "", "no file that can be read", expected, remedy});
   }
   nlohmann::json json;

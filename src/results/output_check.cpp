@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "io/file_bytes.hpp"
-#include "io/scan_listing.hpp"
+#include "io/folder_files.hpp"
+#include "io/folders/scan_listing.hpp"
 #include "rilo/session/session.hpp"
 
 namespace rilo {

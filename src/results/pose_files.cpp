@@ -1,7 +1,6 @@
 #include "results/pose_files.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -58,7 +57,7 @@ Trajectory later_by(Trajectory trajectory, std::int64_t offset_ns) {
 }
 
 MatchedPoses by_stamp(const PoseFile& truth, const Trajectory& estimate, double max_gap_s) {
-  const auto gap_ns = static_cast<std::int64_t>(std::llround(max_gap_s * 1e9));
+  const std::int64_t gap_ns = detail::nanoseconds(max_gap_s);
   if (truth.offsets_ns.empty()) return match_by_stamp(truth.trajectory, estimate, gap_ns);
   std::optional<MatchedPoses> best;
   std::string why_not;

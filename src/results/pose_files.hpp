@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "evaluation/association.hpp"
-#include "io/ground_truth.hpp"
+#include "io/folders/ground_truth.hpp"
 
 namespace rilo {
 

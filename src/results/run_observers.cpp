@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "console/failure.hpp"
 #include "console/interrupt.hpp"
 #include "io/stamp_difference.hpp"
 #include "results/run_metrics.hpp"
@@ -152,42 +149,5 @@ void Pace::on_read(const Sweep& sweep, const std::string& /*name*/) {
 }
 
 void Pace::on_restart(const Restart& /*restart*/) { stamp_ns_.reset(); }
-
-void check_point_times(const SourceRequest& request, const Sweep& sweep, const std::string& name) {
-  if (!request.times_needed || !sweep.times_s.empty() || sweep.points.empty()) return;
-  throw RunError(RunErrorKind::kBadData, name +
-                                             ": no per-point times; expected them because of --point-times data. Take "
-                                             "auto, azimuth or none, or name the field with --time-field");
-}
-
-OpenSource source_of(const RunRequest& flags) {
-  return [data = flags.data, options = flags.source.options] { return open_scan_source(data, options); };
-}
-
-SessionOptions session_options(const RunRequest& flags, const OdometryConfig& config) {
-  SessionOptions options;
-  options.config = config;
-  options.start = flags.start;
-  options.count = flags.count;
-  options.one_pass = flags.one_pass;
-  // Times of the data that are asked for are not replaced by others.
-  options.point_times = flags.source.times_needed ? PointTimes::kNone : flags.source.options.point_times;
-  options.keep_intensities = flags.map_intensity;
-  options.interrupted = [] { return InterruptGuard::signal() != 0; };
-  return options;
-}
-
-void take(SessionResult result, RunRecord& run) {
-  static_cast<SessionResult&>(run) = std::move(result);
-  if (run.interrupted) run.signal = InterruptGuard::signal();
-  if (!run.failure) return;
-  try {
-    std::rethrow_exception(run.failure);
-  } catch (...) {
-    const Failure failure = current_failure();
-    run.error = failure.message;
-    run.error_code = failure.code;
-  }
-}
 
 }  // namespace rilo

@@ -12,7 +12,6 @@
 
 #include "console/progress.hpp"
 #include "results/live_view.hpp"
-#include "results/run_record.hpp"
 #include "results/run_request.hpp"
 #include "rilo/session/session.hpp"
 #include "view/budgeted_map.hpp"
@@ -107,14 +106,5 @@ class Pace final : public SessionObserver {
   std::optional<std::int64_t> stamp_ns_;  // of the sweep before
   std::int64_t due_ns_ = 0;               // steady clock
 };
-
-/// Opens flags.data, for as many passes as there will be.
-OpenSource source_of(const RunRequest& flags);
-
-/// The run that the flags describe, ended by the signals of InterruptGuard.
-SessionOptions session_options(const RunRequest& flags, const OdometryConfig& config);
-
-/// Takes over what the session gave; its failure becomes run.error and run.error_code.
-void take(SessionResult result, RunRecord& run);
 
 }  // namespace rilo

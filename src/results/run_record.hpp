@@ -34,6 +34,9 @@ struct RunRecord : SessionResult {
   std::optional<Evaluation> evaluation;
 };
 
+/// Takes over what the session gave; its failure becomes run.error and run.error_code.
+void take(SessionResult result, RunRecord& run);
+
 /// Looks for ground truth beside the data and evaluates. Truth that cannot be read is reported in truth_error and does
 /// not end the run.
 void evaluate_run(RunRecord& run);

@@ -6,6 +6,7 @@
 
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/io/source_options.hpp"
+#include "rilo/session/session.hpp"
 
 namespace rilo {
 
@@ -27,6 +28,12 @@ struct RunRequest {
   bool quiet = false;          ///< neither progress nor warnings
   SourceRequest source;
 };
+
+/// Opens request.data, for as many passes as there will be.
+OpenSource source_of(const RunRequest& request);
+
+/// The run that the request describes, ended by the signals of InterruptGuard.
+SessionOptions session_options(const RunRequest& request, const OdometryConfig& config);
 
 /// Files that a run leaves behind.
 struct OutputRequest {

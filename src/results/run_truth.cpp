@@ -1,11 +1,11 @@
 #include "results/run_truth.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "console/text.hpp"
-#include "io/ground_truth.hpp"
+#include "io/folders/ground_truth.hpp"
+#include "io/stamp_difference.hpp"
 #include "results/pose_files.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"
@@ -28,8 +28,7 @@ PosesOfSweeps by_stamp(const PoseFile& file, const RunRecord& run, double max_ga
   const Trajectory sweeps = run.trajectory();
   PosesOfSweeps poses(sweeps.size());
   try {
-    const auto matched =
-        match_by_stamp(file.trajectory, sweeps, static_cast<std::int64_t>(std::llround(max_gap_s * 1e9)));
+    const auto matched = match_by_stamp(file.trajectory, sweeps, detail::nanoseconds(max_gap_s));
     for (std::size_t i = 0; i < matched.truth.size(); ++i) poses[matched.estimate_index[i]] = matched.truth[i];
   } catch (const std::invalid_argument& error) {
     throw RunError(RunErrorKind::kBadData, file.file.string() + ": " + error.what());

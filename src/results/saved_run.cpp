@@ -7,8 +7,9 @@
 
 #include "console/text.hpp"
 #include "io/file_bytes.hpp"
-#include "io/ground_truth.hpp"
-#include "io/scan_listing.hpp"
+#include "io/folders/ground_truth.hpp"
+#include "io/stamp_difference.hpp"
+#include "io/times/sweep_period.hpp"
 #include "results/metrics_json.hpp"
 #include "results/sweep_table.hpp"
 #include "rilo/config/config_file.hpp"
@@ -39,8 +40,7 @@ void fill_record(const RunMetrics& metrics, RunRecord& run) {
   run.command_line = metrics.command;
   // A relative path is one from where the run was started.
   const bool relative = fs::path(metrics.data).is_relative();
-  std::error_code ignored;
-  const bool there = relative && !metrics.data_path.empty() && fs::exists(metrics.data_path, ignored);
+  const bool there = relative && !metrics.data_path.empty() && detail::path_exists(metrics.data_path);
   run.data = there ? metrics.data_path : metrics.data;
   run.threads = metrics.threads;
   run.peak_rss_mb = metrics.peak_rss_mb.value_or(0);
@@ -99,7 +99,7 @@ void add_twists(std::vector<SweepResult>& results) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     const SweepResult& before = results[i == 0 ? 0 : i - 1];
     const SweepResult& after = results[std::min(i + 1, results.size() - 1)];
-    const double dt_s = static_cast<double>(after.stamp_ns - before.stamp_ns) * 1e-9;
+    const double dt_s = detail::seconds_between(before.stamp_ns, after.stamp_ns);
     if (dt_s > 0.0) results[i].twist = se3_log(before.T_odom_lidar.inverse() * after.T_odom_lidar) / dt_s;
   }
 }
@@ -137,9 +137,8 @@ bool is_saved_run(const fs::path& folder) {
 }
 
 SavedRun read_saved_run(const fs::path& folder) {
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) {
-    throw IoError({folder, "", fs::exists(folder, ignored) ? "a file" : "no such folder",
+  if (!detail::is_folder(folder)) {
+    throw IoError({folder, "", detail::path_exists(folder) ? "a file" : "no such folder",
                    "a folder that rilo run --out has written", "Check the path"});
   }
   if (!is_saved_run(folder)) {

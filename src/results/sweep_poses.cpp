@@ -21,7 +21,7 @@ float middle_s(const Sweep& sweep) { return instant_s(sweep.times_s, PoseInstant
 }  // namespace
 
 std::int64_t middle_ns(const Sweep& sweep) {
-  return sweep.stamp_ns + std::llround(static_cast<double>(middle_s(sweep)) * 1e9);
+  return sweep.stamp_ns + detail::nanoseconds(static_cast<double>(middle_s(sweep)));
 }
 
 SweepPoses::SweepPoses(PoseFile file, const PairingOptions& options)
@@ -67,7 +67,7 @@ Vector6d SweepPoses::twist(std::size_t i) const {
   const std::size_t before = i == 0 ? 0 : i - 1;
   const std::size_t after = std::min(i + 1, size() - 1);
   return twist(before, after,
-               static_cast<double>(file_.trajectory[after].stamp_ns - file_.trajectory[before].stamp_ns) * 1e-9);
+               detail::seconds_between(file_.trajectory[before].stamp_ns, file_.trajectory[after].stamp_ns));
 }
 
 // The same by the times of the sweeps, between which others may be missing.
@@ -76,7 +76,7 @@ Vector6d SweepPoses::twist(std::size_t i, const SweepWithNeighbours& sweep, doub
   const std::size_t after = sweep.after_ns && i + 1 < size() ? i + 1 : i;
   const std::int64_t begin_ns = before < i ? *sweep.before_ns : sweep.middle_ns;
   const std::int64_t end_ns = after > i ? *sweep.after_ns : sweep.middle_ns;
-  const double dt_s = static_cast<double>(detail::stamp_difference(end_ns, begin_ns)) * 1e-9;
+  const double dt_s = detail::seconds_between(begin_ns, end_ns);
   // Stamps that stand still or go back say nothing.
   return twist(before, after, dt_s > 0 ? dt_s : static_cast<double>(after - before) * period_s);
 }

@@ -5,7 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "io/scan_listing.hpp"
+#include "io/folders/scan_listing.hpp"
+#include "io/stamp_difference.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/scan_source.hpp"
 
@@ -13,15 +14,13 @@ namespace rilo {
 
 namespace {
 
-std::int64_t nanoseconds(double s) { return std::llround(s * 1e9); }
-
 /// Of the first sweep: those of one sensor are alike.
 std::int64_t offset_in_data(const std::filesystem::path& data, PoseInstant instant, std::int64_t stamp_ns) {
   SourceOptions options;
   options.read_ahead = 0;
   const std::optional<Sweep> sweep = open_scan_source(data, options)->next();
   if (!sweep) return 0;
-  return sweep->stamp_ns - stamp_ns + nanoseconds(static_cast<double>(instant_s(sweep->times_s, instant)));
+  return sweep->stamp_ns - stamp_ns + detail::nanoseconds(static_cast<double>(instant_s(sweep->times_s, instant)));
 }
 
 }  // namespace
@@ -45,7 +44,7 @@ SweepTimes sweep_times(const std::filesystem::path& data, PoseInstant instant) {
     times.stamps_ns = listing.stamps_ns;
     // As the data say; points that are taken as compensated; those of which a run or an option says that they are not.
     times.offsets_ns = {offset_in_data(data, instant, listing.stamps_ns.front()), 0,
-                        nanoseconds(listing.info.period_s / 2)};
+                        detail::nanoseconds(listing.info.period_s / 2)};
   } catch (const IoError&) {
     return {};  // a recording, or nothing but the poses
   }

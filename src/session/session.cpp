@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "geometry/degrees.hpp"
-#include "io/source_wrappers.hpp"
+#include "io/sources/source_wrappers.hpp"
 #include "io/text.hpp"
 #include "rilo/io/point_times.hpp"
 #include "session/compensation_trial.hpp"

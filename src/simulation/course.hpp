@@ -5,8 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "simulation/drive_path.hpp"
-
 namespace rilo::simulation {
 
 constexpr double kLaneOffsetM = 1.75;  ///< of the driven lane to the right of the street's centre

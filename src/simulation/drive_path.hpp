@@ -5,8 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "rilo/geometry/se3.hpp"
-
 namespace rilo {
 
 /// A closed course through the town, driven lap after lap with a speed limit, slower bends, limited acceleration and

@@ -5,10 +5,8 @@
 #include "io/io_test_util.hpp"
 #include "rilo/config/config_file.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::slurp;
 
 const std::filesystem::path kSource = RILO_SOURCE_DIR;
 
@@ -36,4 +34,4 @@ TEST(CommittedFiles, the_table_of_the_documentation_is_the_printed_one) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

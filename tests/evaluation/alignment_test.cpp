@@ -7,15 +7,10 @@
 #include "evaluation/trajectories.hpp"
 #include "rilo/evaluation/pose_error.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::pose;
-using testing::random_drive;
-using testing::random_twist;
-using testing::straight_line;
-using testing::with_drift;
 
 double distance(const SE3& a, const SE3& b) { return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff(); }
 
@@ -120,4 +115,4 @@ TEST(PathLengths, AddsUp) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

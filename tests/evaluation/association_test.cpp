@@ -8,11 +8,10 @@
 
 #include "evaluation/trajectories.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 using ::testing::ElementsAre;
-using testing::pose;
 
 /// Poses whose x is their place in the list.
 Trajectory stamped(const std::vector<std::int64_t>& stamps_ns) {
@@ -23,29 +22,34 @@ Trajectory stamped(const std::vector<std::int64_t>& stamps_ns) {
   return trajectory;
 }
 
+std::vector<double> places(const std::vector<SE3>& poses) {
+  std::vector<double> xs;
+  for (const SE3& T : poses) xs.push_back(T.translation().x());
+  return xs;
+}
+
 TEST(MatchByStamp, TakesTheNearestWithinTolerance) {
   const MatchedPoses m = match_by_stamp(stamped({0, 100, 200, 300}), stamped({4, 96, 250, 311}), 10);
-  EXPECT_THAT(m.truth_index, ElementsAre(0, 1));
+  EXPECT_THAT(places(m.truth), ElementsAre(0, 1));
   EXPECT_THAT(m.estimate_index, ElementsAre(0, 1));
   EXPECT_EQ(match_by_stamp(stamped({0, 100, 200, 300}), stamped({4, 96, 250, 311}), 11).truth.size(), 3U);
 }
 
 TEST(MatchByStamp, ToleranceIsInclusiveAndTiesGoToTheEarlier) {
   const MatchedPoses m = match_by_stamp(stamped({0, 100, 200}), stamped({50, 210}), 50);
-  EXPECT_THAT(m.truth_index, ElementsAre(0, 2));
+  EXPECT_THAT(places(m.truth), ElementsAre(0, 2));
 }
 
 TEST(MatchByStamp, ATruePoseIsUsedOnceByTheNearest) {
   const MatchedPoses m = match_by_stamp(stamped({0, 100}), stamped({92, 99, 103, 1}), 20);
-  EXPECT_THAT(m.truth_index, ElementsAre(0, 1));
+  EXPECT_THAT(places(m.truth), ElementsAre(0, 1));
   EXPECT_THAT(m.estimate_index, ElementsAre(3, 1));
 }
 
 TEST(MatchByStamp, OrderDoesNotMatterAndPosesFollow) {
   const MatchedPoses m = match_by_stamp(stamped({300, 0, 100}), stamped({101, 299}), 5);
-  EXPECT_THAT(m.truth_index, ElementsAre(2, 0));
+  EXPECT_THAT(places(m.truth), ElementsAre(2, 0));
   EXPECT_THAT(m.estimate_index, ElementsAre(0, 1));
-  EXPECT_EQ(m.truth[0].translation().x(), 2.0);
   EXPECT_EQ(m.estimate[1].translation().x(), 1.0);
 }
 
@@ -74,7 +78,7 @@ TEST(MatchByStamp, RefusesWhatCannotBeEvaluated) {
 
 TEST(MatchByIndex, PairsEqualPlaces) {
   const MatchedPoses m = match_by_index(stamped({0, 1, 2}), stamped({7, 8, 9}));
-  EXPECT_THAT(m.truth_index, ElementsAre(0, 1, 2));
+  EXPECT_THAT(places(m.truth), ElementsAre(0, 1, 2));
   EXPECT_THAT(m.estimate_index, ElementsAre(0, 1, 2));
   EXPECT_THROW(match_by_index(stamped({0, 1, 2}), stamped({7, 8})), std::invalid_argument);
   EXPECT_THROW(match_by_index(stamped({0}), stamped({7})), std::invalid_argument);
@@ -83,4 +87,4 @@ TEST(MatchByIndex, PairsEqualPlaces) {
 TEST(PosesOf, DropsStamps) { EXPECT_EQ(poses_of(stamped({5, 6}))[1].translation().x(), 1.0); }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

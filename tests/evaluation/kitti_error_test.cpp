@@ -9,14 +9,8 @@
 #include "evaluation/trajectories.hpp"
 #include "rilo/evaluation/pose_error.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using testing::pose;
-using testing::random_drive;
-using testing::random_twist;
-using testing::straight_line;
-using testing::with_drift;
 
 std::vector<SE3> scaled(std::vector<SE3> poses, double scale) {
   for (SE3& T : poses) T.translation() *= scale;
@@ -145,4 +139,4 @@ TEST(KittiBenchmark, PooledAndPerSequenceMeansDiffer) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

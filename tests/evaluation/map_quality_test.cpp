@@ -16,11 +16,10 @@
 #include "evaluation/peer.hpp"
 #include "evaluation/trajectories.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::pose;
 
 using Points = std::vector<Eigen::Vector3f>;
 
@@ -127,7 +126,7 @@ TEST(MapQuality, WrongPosesAreWorse) {
   std::mt19937 random(5);
   MapQuality before = map_quality(drive.sweeps, drive.poses);
   for (const double error : {0.001, 0.003, 0.01}) {
-    const std::vector<SE3> wrong = testing::with_drift(random, drive.poses, error / 10, error);
+    const std::vector<SE3> wrong = with_drift(random, drive.poses, error / 10, error);
     const MapQuality after = map_quality(drive.sweeps, wrong);
     EXPECT_GT(after.plane_rms_m.median, before.plane_rms_m.median) << error;
     EXPECT_GT(after.plane_rms_m.mean, before.plane_rms_m.mean) << error;
@@ -263,18 +262,18 @@ TEST(MapQuality, WhatMakesNoSenseIsRefused) {
 
 // With so few points nothing is left to chance in either program.
 TEST(MapQualityPeer, AgreesWithTheIndependentProgram) {
-  const fs::path peer = testing::shared_folder() / "tools" / "mapquality.py";
+  const fs::path peer = shared_folder() / "tools" / "mapquality.py";
   if (!fs::exists(peer)) {
     GTEST_SKIP() << "no " << peer;
   }
-  if (!testing::python_has("numpy, scipy")) {
+  if (!python_has("numpy, scipy")) {
     GTEST_SKIP() << "no /usr/bin/python3 with numpy and scipy";
   }
   const fs::path folder = fs::temp_directory_path() / ("rilo_map_quality_" + std::to_string(getpid()));
   fs::create_directories(folder);
   const Drive drive = floor_and_wall(64, 2500, 0.01);
   std::mt19937 random(3);
-  const std::vector<SE3> poses = testing::with_drift(random, drive.poses, 0.0005, 0.003);
+  const std::vector<SE3> poses = with_drift(random, drive.poses, 0.0005, 0.003);
   for (std::size_t i = 0; i < drive.sweeps.size(); ++i) {
     std::ofstream file(folder / (std::to_string(100 + i) + ".bin"), std::ios::binary);
     for (const Eigen::Vector3f& p : drive.sweeps[i]) {
@@ -282,9 +281,9 @@ TEST(MapQualityPeer, AgreesWithTheIndependentProgram) {
       file.write(reinterpret_cast<const char*>(record.data()), sizeof(float) * 4);
     }
   }
-  testing::write_poses(folder / "poses.txt", poses);
-  const auto theirs = testing::peer_figures("/usr/bin/python3 '" + peer.string() + "' '" + folder.string() + "' '" +
-                                            (folder / "poses.txt").string() + "' --json");
+  write_poses(folder / "poses.txt", poses);
+  const auto theirs = peer_figures("/usr/bin/python3 '" + peer.string() + "' '" + folder.string() + "' '" +
+                                   (folder / "poses.txt").string() + "' --json");
   fs::remove_all(folder);
   ASSERT_EQ(theirs.size(), 5U) << "unexpected output of the program";
   const MapQuality ours = map_quality(drive.sweeps, poses);
@@ -297,4 +296,4 @@ TEST(MapQualityPeer, AgreesWithTheIndependentProgram) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -15,7 +15,7 @@
 
 #include "rilo/geometry/se3.hpp"
 
-namespace rilo::testing {
+namespace rilo::test {
 
 inline std::filesystem::path shared_folder() {
   const char* told = std::getenv("RILO_SHARED");
@@ -56,4 +56,4 @@ inline std::filesystem::path write_poses(const std::filesystem::path& path, cons
   return path;
 }
 
-}  // namespace rilo::testing
+}  // namespace rilo::test

@@ -12,16 +12,10 @@
 #include "evaluation/trajectories.hpp"
 #include "rilo/evaluation/evaluation.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::peer_figures;
-using testing::python_has;
-using testing::random_drive;
-using testing::shared_folder;
-using testing::with_drift;
-using testing::write_poses;
 
 constexpr double kRelative = 1e-6;
 
@@ -106,4 +100,4 @@ TEST_F(PeerScorer, AgreesOnKittiGroundTruth) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -7,14 +7,8 @@
 #include "evaluation/trajectories.hpp"
 #include "rilo/evaluation/evaluation.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using testing::pose;
-using testing::random_drive;
-using testing::random_twist;
-using testing::straight_line;
-using testing::with_drift;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -138,4 +132,4 @@ TEST(Evaluate, ASensorAtRestGivesFiniteFigures) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

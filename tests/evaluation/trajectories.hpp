@@ -7,7 +7,7 @@
 
 #include "rilo/geometry/se3.hpp"
 
-namespace rilo::testing {
+namespace rilo::test {
 
 inline SE3 pose(double x, double y, double z, double yaw_rad = 0.0) {
   SE3 T = SE3::Identity();
@@ -53,4 +53,4 @@ inline std::vector<SE3> with_drift(std::mt19937& random, const std::vector<SE3>&
   return poses;
 }
 
-}  // namespace rilo::testing
+}  // namespace rilo::test

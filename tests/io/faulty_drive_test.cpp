@@ -4,7 +4,7 @@
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 constexpr std::size_t kSweeps = 14;
@@ -29,10 +29,9 @@ struct Driven {
 };
 
 Driven run_recording(const std::vector<Sweep>& sweeps) {
-  const test::TempDir folder;
+  const TempDir folder;
   const auto source = open_scan_source(folder.write(
-      "d.mcap",
-      test::mcap_bytes({{"/points", test::kRos2Type}}, test::recorded(sweeps, MessageEncoding::kCdr), {"lz4", 3})));
+      "d.mcap", mcap_bytes({{"/points", kRos2Type}}, recorded(sweeps, MessageEncoding::kCdr), {"lz4", 3})));
   Odometry odometry({});
   Driven run;
   while (const auto sweep = source->next()) run.poses.push_back(odometry.register_sweep(*sweep).T_odom_lidar);
@@ -79,4 +78,4 @@ TEST(FaultyDriveTest, AClockThatIsSetBackDoesNotLoseTheWay) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -9,12 +9,9 @@
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::slurp;
-using test::small_sweep;
-using test::TempDir;
 using Read = std::function<std::size_t(const std::filesystem::path&)>;  // number of points or poses
 
 struct Example {
@@ -45,7 +42,7 @@ std::vector<Example> examples() {
                    [=](const auto& f) { write_ply(f, small_sweep(), encoding); }, ply});
   }
   all.push_back({"kitti_poses", true,
-                 [](const auto& f) { std::ofstream(f) << test::kitti_row(1, 2, 3) << test::kitti_row(4, 5, 6); },
+                 [](const auto& f) { std::ofstream(f) << kitti_row(1, 2, 3) << kitti_row(4, 5, 6); },
                  [](const auto& f) { return read_kitti_poses(f).size(); }});
   all.push_back({"tum", true, [](const auto& f) { std::ofstream(f) << "1.5 1 2 3 0 0 0 1\n1.6 1 2 3 0 0 0 1\n"; },
                  [](const auto& f) { return read_tum(f).size(); }});
@@ -63,7 +60,7 @@ class HostileBytesTest : public testing::TestWithParam<Example> {
   bool try_read(const std::string& bytes) const {
     // Nothing out of nothing: an item takes a byte at least.
     const auto file = folder.write("hostile", bytes);
-    return test::reads_or_refuses([&] { EXPECT_LE(GetParam().read(file), bytes.size()); });
+    return reads_or_refuses([&] { EXPECT_LE(GetParam().read(file), bytes.size()); });
   }
 
   TempDir folder;
@@ -127,4 +124,4 @@ TEST_P(HostileBytesTest, RandomBodies) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

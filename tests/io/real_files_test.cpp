@@ -8,11 +8,9 @@
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/scan_source.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::expect_io_error;
-using test::RealFiles;
 namespace fs = std::filesystem;
 
 // Sweeps of real sensors: some hundred metres around the sensor, most points measured.
@@ -86,4 +84,4 @@ TEST_F(RealFiles, Malformed) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/pcd_header.hpp"
-#include "io/ply_header.hpp"
+#include "io/clouds/pcd_header.hpp"
+#include "io/clouds/ply_header.hpp"
 #include "rilo/cloud/sweep.hpp"
 
 namespace rilo {

@@ -13,7 +13,7 @@
 
 namespace rilo::test {
 
-class SweepsSource final : public ScanSource {
+class SweepsSource : public ScanSource {
  public:
   /// Cannot read the sweep `fails_at`.
   explicit SweepsSource(std::vector<Sweep> sweeps, double period_s = 0.1, std::size_t fails_at = SIZE_MAX)

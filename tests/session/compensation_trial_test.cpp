@@ -11,10 +11,8 @@
 #include "rilo/session/session_observer.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::SweepsSource;
 
 constexpr std::size_t kTrialSweeps = 30;
 // So many of them are compared at least: not those that begin a map, or are lost.
@@ -201,4 +199,4 @@ TEST(CompensationTrial, ObserversAreTold) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -1,52 +1,43 @@
 // Session: one run over a source, its observers, and what ends it.
 #include "rilo/session/session.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "rilo/io/io_error.hpp"
+#include "io/sweeps_source.hpp"
 #include "rilo/session/session_observer.hpp"
 #include "simulation/small_drive.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 constexpr std::size_t kSweeps = 24;
-constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
 const std::vector<Sweep>& drive() {
-  static const std::vector<Sweep> kDrive = test::small_drive(kSweeps);
+  static const std::vector<Sweep> kDrive = small_drive(kSweeps);
   return kDrive;
 }
 
-class DriveSource final : public ScanSource {
+// Warns when the third sweep is read.
+class DriveSource final : public SweepsSource {
  public:
-  explicit DriveSource(std::size_t fails_at = kNever) : fails_at_(fails_at) {}
+  explicit DriveSource(std::size_t fails_at = SIZE_MAX) : SweepsSource(drive(), 0.1, fails_at) {}
 
   std::optional<Sweep> next() override {
-    if (at_ == fails_at_) throw IoError({"sweep", "", "noise", "a sweep", ""});
-    if (at_ == drive().size()) return std::nullopt;
-    if (at_ == 2) info_.warnings = {"the third"};
-    return drive()[at_++];
+    std::optional<Sweep> sweep = SweepsSource::next();
+    if (current_index() == 2) warnings_ = {"the third"};
+    return sweep;
   }
-  std::size_t skip(std::size_t count) override {
-    const std::size_t skipped = std::min(count, drive().size() - at_);
-    at_ += skipped;
-    return skipped;
+  SourceInfo info() const override {
+    SourceInfo info = SweepsSource::info();
+    info.warnings = warnings_;
+    return info;
   }
-  std::optional<std::size_t> size() const override { return drive().size(); }
-  std::size_t current_index() const override { return at_ - 1; }
-  std::string current_name() const override { return "sweep " + std::to_string(at_ - 1); }
-  SourceInfo info() const override { return info_; }
 
  private:
-  std::size_t fails_at_;
-  std::size_t at_ = 0;
-  SourceInfo info_;
+  std::vector<std::string> warnings_;
 };
 
 std::unique_ptr<ScanSource> open_drive() { return std::make_unique<DriveSource>(); }
@@ -216,4 +207,4 @@ TEST(Session, TheMapIsThatOfTheLastPass) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

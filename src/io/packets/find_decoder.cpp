@@ -6,9 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "io/file_bytes.hpp"
+#include "io/folder_files.hpp"
 #include "io/packets/ouster.hpp"
 #include "io/packets/velodyne.hpp"
-#include "io/scan_listing.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -82,13 +83,13 @@ std::optional<fs::path> of_the_name(const std::vector<fs::path>& files, const st
 fs::path find_metadata(const fs::path& path, const Contents& contents) {
   std::error_code error;
   const fs::path whole = fs::absolute(path, error).lexically_normal();
-  const bool is_folder = fs::is_directory(path, error);
+  const bool in_folder = is_folder(path);
   const fs::path named = whole.has_filename() ? whole : whole.parent_path();  // "bag/" is "bag"
-  fs::path twin = is_folder ? fs::path(named).concat(".json") : fs::path(named).replace_extension(".json");
-  if (fs::exists(twin, error)) return twin;
-  const std::vector<fs::path> found = metadata_in(is_folder ? named : named.parent_path());
+  fs::path twin = in_folder ? fs::path(named).concat(".json") : fs::path(named).replace_extension(".json");
+  if (path_exists(twin)) return twin;
+  const std::vector<fs::path> found = metadata_in(in_folder ? named : named.parent_path());
   if (found.size() == 1) return found[0];
-  const std::string name = is_folder ? named.filename().string() : named.stem().string();
+  const std::string name = in_folder ? named.filename().string() : named.stem().string();
   if (const auto chosen = of_the_name(found, name)) return *chosen;
   std::string list;
   for (const fs::path& file : found) list += (list.empty() ? ": " : ", ") + file.filename().string();

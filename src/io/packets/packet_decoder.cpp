@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "io/stamp_difference.hpp"
+
 namespace rilo::detail {
 
 std::int64_t PacketClock::nearest(std::int64_t time_ns, std::int64_t to_ns) const {
@@ -44,7 +46,7 @@ Sweep GrowingSweep::take() {
   sweep.stamp_ns = *std::min_element(times_ns.begin(), times_ns.end());
   sweep.times_s.reserve(times_ns.size());
   for (const std::int64_t time : times_ns) {
-    sweep.times_s.push_back(static_cast<float>(static_cast<double>(time - sweep.stamp_ns) * 1e-9));
+    sweep.times_s.push_back(static_cast<float>(seconds_between(sweep.stamp_ns, time)));
   }
   return sweep;
 }

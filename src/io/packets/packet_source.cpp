@@ -4,9 +4,10 @@
 #include <optional>
 #include <utility>
 
+#include "io/bad_sweeps.hpp"
 #include "io/packets/find_decoder.hpp"
 #include "io/packets/udp_reader.hpp"
-#include "io/scan_listing.hpp"
+#include "io/times/sweep_period.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <pcap/pcap.h>
 #include <sys/stat.h>
-#include <system_error>
 #include <utility>
 
+#include "io/file_bytes.hpp"
 #include "io/raw_bytes.hpp"
 #include "rilo/io/io_error.hpp"
 
@@ -60,8 +60,7 @@ std::int64_t bytes_of(std::FILE* stream) {
 void UdpReader::Close::operator()(pcap* capture) const { pcap_close(capture); }
 
 UdpReader::UdpReader(std::filesystem::path file) : file_(std::move(file)) {
-  std::error_code error;
-  std::FILE* stream = std::filesystem::is_regular_file(file_, error) ? std::fopen(file_.c_str(), "rbe") : nullptr;
+  std::FILE* stream = is_file(file_) ? std::fopen(file_.c_str(), "rbe") : nullptr;
   if (stream == nullptr) throw IoError({file_, "", "it cannot be opened", "a readable pcap file", "Check the path"});
   bytes_when_opened_ = bytes_of(stream);
   std::array<char, PCAP_ERRBUF_SIZE> message{};

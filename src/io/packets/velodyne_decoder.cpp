@@ -1,5 +1,4 @@
 // One revolution of a Velodyne after the other.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>

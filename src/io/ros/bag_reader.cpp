@@ -1,5 +1,4 @@
 // A ROS 1 bag, by ROS' own library.
-#include <algorithm>
 #include <memory>
 #include <ros/serialization.h>
 #include <rosbag/bag.h>
@@ -99,14 +98,9 @@ class BagReader final : public Recording {
   void list_topics() {
     rosbag::View all(bag_);
     for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
-      const auto same = [&](const RecordedTopic& topic) {
-        return topic.name == connection->topic && topic.type == connection->datatype;
-      };
-      if (std::any_of(topics_.begin(), topics_.end(), same)) continue;
-      rosbag::View messages(bag_, [&](const rosbag::ConnectionInfo* other) {
-        return other->topic == connection->topic && other->datatype == connection->datatype;
-      });
-      topics_.push_back({connection->topic, connection->datatype, "ros1", messages.size()});
+      const auto of_this_one = [&](const rosbag::ConnectionInfo* other) { return other->id == connection->id; };
+      rosbag::View messages(bag_, of_this_one);
+      add_topic({connection->topic, connection->datatype, "ros1", messages.size()}, topics_);
     }
   }
 

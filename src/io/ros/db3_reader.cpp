@@ -6,6 +6,7 @@
 #include <sqlite3.h>
 #include <string>
 
+#include "io/file_bytes.hpp"
 #include "io/ros/recording.hpp"
 #include "io/ros/unpack.hpp"
 #include "io/text.hpp"
@@ -25,13 +26,13 @@ using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
 class Database {
  public:
   explicit Database(const std::filesystem::path& path) : path_(path) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) {
+    if (!is_file(path)) {
       throw IoError({path, "", "no regular file of this name", "the SQLite3 file of a rosbag2", "Check the path"});
     }
     // Without a write-ahead log nothing but the file itself is touched: folders that may not be written to are fine.
+    std::error_code error;
     const std::filesystem::path log = path.string() + "-wal";
-    const bool has_log = std::filesystem::exists(log, error) && std::filesystem::file_size(log, error) > 0;
+    const bool has_log = path_exists(log) && std::filesystem::file_size(log, error) > 0;
     const std::string uri = "file:" + escaped(path.string()) + (has_log ? "?mode=ro" : "?mode=ro&immutable=1");
     sqlite3* raw = nullptr;
     const int code = sqlite3_open_v2(uri.c_str(), &raw, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);

@@ -13,7 +13,7 @@ LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const
   constexpr std::size_t kReserved = 3;
   const BytesOrigin origin{file, part};
   MessageCursor cursor(bytes, encoding, origin);
-  MessageHeaderFields header = take_header(cursor, encoding);
+  MessageHeaderFields header = take_header(cursor);
   LivoxMessage message;
   message.stamp_ns = header.stamp_ns;
   message.frame_id = std::move(header.frame_id);
@@ -48,10 +48,10 @@ VelodyneScan parse_velodyne_scan(std::string_view bytes, MessageEncoding encodin
   const BytesOrigin origin{file, part};
   MessageCursor cursor(bytes, encoding, origin);
   VelodyneScan scan;
-  scan.frame_id = take_header(cursor, encoding).frame_id;
+  scan.frame_id = take_header(cursor).frame_id;
   scan.packets.resize(take_count(cursor, kStampBytes + kVelodynePacket, "packets", "VelodyneScan"));
   for (RecordedPacket& packet : scan.packets) {
-    packet.received_ns = take_stamp_ns(cursor, encoding);
+    packet.received_ns = take_stamp_ns(cursor);
     packet.data = cursor.take_bytes(kVelodynePacket, "packet");
   }
   return scan;

@@ -3,7 +3,6 @@
 #include <limits>
 #include <memory>
 #include <set>
-#include <zlib.h>
 
 #include "io/ros/mcap_records.hpp"
 #include "io/ros/recording.hpp"
@@ -124,23 +123,20 @@ class Reader final : public Recording {
 
   void list_topics() {
     for (const auto& [id, channel] : known_.channels) {
-      const auto schema = known_.schemas.find(channel.schema_id);
-      RecordedTopic topic{channel.topic, schema == known_.schemas.end() ? "" : schema->second, channel.encoding, {}};
-      const auto same = [&](const RecordedTopic& other) {
-        return other.name == topic.name && other.type == topic.type && other.encoding == topic.encoding;
-      };
-      auto place = std::find_if(topics_.begin(), topics_.end(), same);
-      if (place == topics_.end()) place = topics_.insert(place, topic);
-      if (!counts_.empty()) place->messages = place->messages.value_or(0) + counts_[id];
+      RecordedTopic topic = topic_of(channel);
+      if (!counts_.empty()) topic.messages = counts_[id];
+      add_topic(topic, topics_);
     }
+  }
+
+  RecordedTopic topic_of(const Channel& channel) const {
+    const auto schema = known_.schemas.find(channel.schema_id);
+    return {channel.topic, schema == known_.schemas.end() ? "" : schema->second, channel.encoding, {}};
   }
 
   bool is_wanted(std::uint16_t id) const {
     const auto channel = known_.channels.find(id);
-    if (channel == known_.channels.end()) return false;
-    const auto schema = known_.schemas.find(channel->second.schema_id);
-    return schema != known_.schemas.end() &&
-           topic_.has_same_messages({channel->second.topic, schema->second, channel->second.encoding, {}});
+    return channel != known_.channels.end() && topic_.has_same_messages(topic_of(channel->second));
   }
 
   // Goes on to the next message that `wanted` takes.
@@ -213,7 +209,7 @@ class Reader final : public Recording {
     if (chunk_.size() != header.unpacked_bytes) {
       reject_chunk(std::to_string(chunk_.size()) + " bytes unpacked", std::to_string(header.unpacked_bytes));
     }
-    const auto crc = ::crc32_z(0, reinterpret_cast<const Bytef*>(chunk_.data()), chunk_.size());
+    const std::uint32_t crc = crc_of({chunk_.data(), chunk_.size()});
     if (header.crc != 0 && crc != header.crc) {
       reject_chunk("CRC " + std::to_string(crc), "CRC " + std::to_string(header.crc));
     }

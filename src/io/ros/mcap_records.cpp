@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <utility>
+#include <zlib.h>
 
 #include "io/ros/unpack.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail::mcap {
+
+std::uint32_t crc_of(std::string_view bytes) {
+  return static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
 
 void Channels::add_schema(ByteCursor cursor) {
   const auto id = cursor.take<std::uint16_t>("schema id");

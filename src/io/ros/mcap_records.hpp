@@ -16,6 +16,9 @@ namespace rilo::detail::mcap {
 
 inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 
+/// CRC-32, as the format has it.
+std::uint32_t crc_of(std::string_view bytes);
+
 enum class Opcode : std::uint8_t {
   kHeader = 0x01,
   kFooter = 0x02,

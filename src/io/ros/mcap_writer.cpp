@@ -1,7 +1,6 @@
 #include "io/ros/mcap_writer.hpp"
 
 #include <algorithm>
-#include <zlib.h>
 
 #include "io/raw_bytes.hpp"
 #include "io/ros/mcap_records.hpp"
@@ -34,11 +33,6 @@ class Fields {
 
 std::string record(Opcode opcode, const Fields& fields) {
   return Fields().put(opcode).put(std::uint64_t{fields.bytes().size()}).raw(fields.bytes()).bytes();
-}
-
-std::uint32_t crc_of(std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32(0, reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<unsigned>(bytes.size())));
 }
 
 }  // namespace
@@ -78,7 +72,7 @@ void McapWriter::close_chunk() {
                                    .put(chunk_.first_ns)
                                    .put(chunk_.last_ns)
                                    .put(size)
-                                   .put(crc_of(chunk_.records))
+                                   .put(mcap::crc_of(chunk_.records))
                                    .text("")
                                    .put(size)
                                    .raw(chunk_.records)));

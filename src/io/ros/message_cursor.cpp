@@ -22,17 +22,16 @@ std::size_t MessageCursor::alignment_of(std::string_view bytes, const BytesOrigi
                  "0 1 (CDR, little-endian)", "Record on a little-endian machine, or check the message's type"});
 }
 
-std::int64_t take_stamp_ns(MessageCursor& cursor, MessageEncoding encoding) {
+std::int64_t take_stamp_ns(MessageCursor& cursor) {
   const auto seconds = cursor.take<std::uint32_t>("stamp");
-  const std::int64_t whole =
-      encoding == MessageEncoding::kRos1 ? std::int64_t{seconds} : std::int64_t{static_cast<std::int32_t>(seconds)};
+  const std::int64_t whole = cursor.cdr() ? std::int64_t{static_cast<std::int32_t>(seconds)} : std::int64_t{seconds};
   return whole * kNanosecondsPerSecond + cursor.take<std::uint32_t>("stamp");
 }
 
-MessageHeaderFields take_header(MessageCursor& cursor, MessageEncoding encoding) {
-  if (encoding == MessageEncoding::kRos1) cursor.take<std::uint32_t>("sequence number");
+MessageHeaderFields take_header(MessageCursor& cursor) {
+  if (!cursor.cdr()) cursor.take<std::uint32_t>("sequence number");
   MessageHeaderFields header;
-  header.stamp_ns = take_stamp_ns(cursor, encoding);
+  header.stamp_ns = take_stamp_ns(cursor);
   header.frame_id = cursor.take_string("frame_id");
   return header;
 }

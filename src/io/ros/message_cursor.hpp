@@ -53,10 +53,10 @@ struct MessageHeaderFields {
   std::int64_t stamp_ns = 0;
   std::string frame_id;
 };
-MessageHeaderFields take_header(MessageCursor& cursor, MessageEncoding encoding);
+MessageHeaderFields take_header(MessageCursor& cursor);
 
 /// Seconds and nanoseconds: unsigned in ROS 1, signed seconds in ROS 2.
-std::int64_t take_stamp_ns(MessageCursor& cursor, MessageEncoding encoding);
+std::int64_t take_stamp_ns(MessageCursor& cursor);
 
 /// The length of a sequence whose items take `least_item_bytes` each at least. @throws IoError when the bytes that
 /// follow cannot hold it; `what` names the items and `type` the message.

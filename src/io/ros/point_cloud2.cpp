@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "io/cloud_columns.hpp"
+#include "io/clouds/cloud_columns.hpp"
 #include "io/ros/message_cursor.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
@@ -96,7 +96,7 @@ PointCloud2 parse_point_cloud2(std::string_view bytes, MessageEncoding encoding,
   const detail::BytesOrigin origin{file, part};
   detail::MessageCursor cursor(bytes, encoding, origin);
   PointCloud2 message;
-  detail::MessageHeaderFields header = detail::take_header(cursor, encoding);
+  detail::MessageHeaderFields header = detail::take_header(cursor);
   message.stamp_ns = header.stamp_ns;
   message.frame_id = std::move(header.frame_id);
   message.height = cursor.take<std::uint32_t>("height");

@@ -7,6 +7,18 @@
 
 namespace rilo::detail {
 
+void add_topic(const RecordedTopic& topic, std::vector<RecordedTopic>& topics) {
+  const auto same = [&](const RecordedTopic& known) { return known.has_same_messages(topic); };
+  const auto known = std::find_if(topics.begin(), topics.end(), same);
+  if (known == topics.end()) {
+    topics.push_back(topic);
+  } else if (known->messages && topic.messages) {
+    *known->messages += *topic.messages;
+  } else {
+    known->messages.reset();
+  }
+}
+
 MessageEncoding encoding_of(const RecordedTopic& topic) {
   return topic.encoding == "ros1" ? MessageEncoding::kRos1 : MessageEncoding::kCdr;
 }
@@ -83,25 +95,11 @@ class RecordingsInTurn final : public Recording {
         continue;
       }
       opened.push_back(file);
-      add_topics(current_->topics());
+      for (const RecordedTopic& topic : current_->topics()) add_topic(topic, topics_);
       keep_warnings();
     }
     if (opened.empty()) throw IoError(*failure);
     files_ = std::move(opened);
-  }
-
-  void add_topics(const std::vector<RecordedTopic>& topics) {
-    for (const RecordedTopic& topic : topics) {
-      const auto same = [&](const RecordedTopic& known) { return known.has_same_messages(topic); };
-      const auto known = std::find_if(topics_.begin(), topics_.end(), same);
-      if (known == topics_.end()) {
-        topics_.push_back(topic);
-      } else if (known->messages && topic.messages) {
-        *known->messages += *topic.messages;
-      } else {
-        known->messages.reset();
-      }
-    }
   }
 
   // A file may lack the topic.

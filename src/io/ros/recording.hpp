@@ -30,6 +30,9 @@ struct RecordedTopic {
   }
 };
 
+/// Into a list of them, where those of the same messages are one: their counts are added, as far as they are known.
+void add_topic(const RecordedTopic& topic, std::vector<RecordedTopic>& topics);
+
 /// Of a topic whose encoding is "ros1" or "cdr".
 MessageEncoding encoding_of(const RecordedTopic& topic);
 

@@ -1,20 +1,20 @@
 #include "io/ros/recording_source.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "io/cloud_columns.hpp"
+#include "io/bad_sweeps.hpp"
+#include "io/clouds/cloud_columns.hpp"
 #include "io/ros/driver_messages.hpp"
 #include "io/ros/scan_topic.hpp"
-#include "io/scan_listing.hpp"
 #include "io/stamp_difference.hpp"
-#include "io/sweep_timing.hpp"
 #include "io/text.hpp"
-#include "io/time_field.hpp"
+#include "io/times/sweep_period.hpp"
+#include "io/times/sweep_timing.hpp"
+#include "io/times/time_field.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -182,7 +182,7 @@ class RecordingSource final : public ScanSource {
   std::int64_t stamp_of(const RecordedMessage& message, std::int64_t header_ns) const {
     if (!unstamped_) return header_ns;
     if (!info_.stamps_assumed) return message.received_ns;
-    return std::llround(static_cast<double>(current_) * info_.period_s * 1e9);
+    return nanoseconds(static_cast<double>(current_) * info_.period_s);
   }
 
   Sweep decode(const RecordedMessage& message) {

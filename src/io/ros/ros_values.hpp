@@ -8,6 +8,9 @@
 namespace rilo {
 namespace detail {
 
+inline constexpr std::uint32_t kLastRos1Second = 0xFFFFFFFF;
+inline constexpr std::uint32_t kLastRos2Second = 0x7FFFFFFF;  ///< builtin_interfaces/Time has int32
+
 struct MessageStamp {
   std::uint32_t seconds = 0;
   std::uint32_t nanoseconds = 0;

@@ -1,17 +1,15 @@
 // A rosbag2 folder: metadata.yaml says which files there are and how they are compressed.
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include <yaml-cpp/yaml.h>
 
 #include "io/file_bytes.hpp"
+#include "io/folder_files.hpp"
 #include "io/ros/recording.hpp"
 #include "io/ros/unpack.hpp"
-#include "io/scan_listing.hpp"
 #include "io/temporary_folder.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
@@ -42,8 +40,7 @@ std::string text_of(const YAML::Node& node, const char* key) {
 // Old versions wrote the path as it was seen by the recorder: the name in this folder is what counts.
 fs::path find_file(const fs::path& folder, const fs::path& metadata, const std::string& written) {
   const fs::path name = fs::path(written).filename();
-  std::error_code ignored;
-  if (!name.empty() && fs::exists(folder / name, ignored)) return folder / name;
+  if (!name.empty() && path_exists(folder / name)) return folder / name;
   throw IoError({metadata, "", "the file " + in_quotes(written) + ", which is not in the folder",
                  "all files of the bag", "Copy the missing file, or move metadata.yaml away to read what is there"});
 }
@@ -159,9 +156,8 @@ std::unique_ptr<Recording> open_maybe_packed(const fs::path& file) {
 
 std::unique_ptr<Recording> open_rosbag2_folder(const fs::path& folder) {
   const fs::path file = folder / "metadata.yaml";
-  std::error_code ignored;
   Metadata metadata;
-  if (fs::exists(file, ignored)) {
+  if (path_exists(file)) {
     metadata = parse_metadata(folder, file);
   } else {
     metadata.files = files_without_metadata(folder);
@@ -174,15 +170,12 @@ std::unique_ptr<Recording> open_rosbag2_folder(const fs::path& folder) {
 }  // namespace
 
 bool is_rosbag2(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::is_directory(path, ignored)) return is_storage(path);
+  if (!is_folder(path)) return is_storage(path);
   return path_exists(path / "metadata.yaml") || !storage_in(path).empty();
 }
 
 std::unique_ptr<Recording> open_rosbag2(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::is_directory(path, ignored)) return open_maybe_packed(path);
-  return open_rosbag2_folder(path);
+  return is_folder(path) ? open_rosbag2_folder(path) : open_maybe_packed(path);
 }
 
 }  // namespace rilo::detail

@@ -1,5 +1,5 @@
 // The poses of a run as a ROS 1 bag, by ROS' own library. Its message classes do not compile as C++20; their names,
-// definitions and checksums do, and the bytes are written here: little-endian, one field behind the other.
+// definitions and checksums do, and the bytes are ours.
 #include <algorithm>
 #include <cstdint>
 #include <nav_msgs/Odometry.h>
@@ -10,7 +10,6 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "io/atomic_file.hpp"
-#include "io/raw_bytes.hpp"
 #include "io/ros/pose_messages.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"
@@ -64,47 +63,27 @@ namespace {
 
 using detail::BagMessage;
 
-ros::Time ros_time(std::int64_t stamp_ns, std::int64_t least_ns) {
-  constexpr std::uint32_t kLastSecond = 0xFFFFFFFF;
-  const detail::MessageStamp stamp = detail::message_stamp(stamp_ns, least_ns, kLastSecond);
+// Messages at time 0 there are none.
+ros::Time message_time(std::int64_t stamp_ns) {
+  const detail::MessageStamp stamp = detail::message_stamp(stamp_ns, 1, detail::kLastRos1Second);
   return {stamp.seconds, stamp.nanoseconds};
 }
-
-// The fields follow each other without padding; the header has a number before its stamp.
-struct Ros1Message {
-  template <typename T>
-  void put(T value) {
-    detail::append_bytes(bytes, value);
-  }
-  void put_text(const std::string& text) {
-    put(static_cast<std::uint32_t>(text.size()));
-    bytes += text;
-  }
-  void put_stamp(std::int64_t stamp_ns) {
-    const ros::Time stamp = ros_time(stamp_ns, 0);
-    for (const std::uint32_t value : {number, stamp.sec, stamp.nsec}) put(value);
-  }
-
-  std::uint32_t number = 0;
-  std::string bytes = {};
-};
 
 }  // namespace
 
 bool can_write_bags() { return true; }
 
 void write_bag(const std::filesystem::path& file, std::span<const SweepResult> results, const RecordingNames& names) {
+  constexpr MessageEncoding kRos1 = MessageEncoding::kRos1;
   AtomicFile target(file);
   try {
     rosbag::Bag bag(target.temporary().string(), rosbag::bagmode::Write);
     for (std::size_t i = 0; i < results.size(); ++i) {
-      Ros1Message odometry{static_cast<std::uint32_t>(i)};
-      Ros1Message transform{odometry.number};
-      detail::put_odometry(odometry, results, i, names);
-      detail::put_transform(transform, results[i], names);
-      const ros::Time time = ros_time(results[i].stamp_ns, 1);
-      bag.write(names.odometry_topic, time, BagMessage<nav_msgs::Odometry>{odometry.bytes});
-      bag.write(names.tf_topic, time, BagMessage<tf2_msgs::TFMessage>{transform.bytes});
+      const ros::Time time = message_time(results[i].stamp_ns);
+      bag.write(names.odometry_topic, time,
+                BagMessage<nav_msgs::Odometry>{detail::odometry_message(kRos1, results, i, names).bytes()});
+      bag.write(names.tf_topic, time,
+                BagMessage<tf2_msgs::TFMessage>{detail::transform_message(kRos1, results, i, names).bytes()});
     }
     bag.close();
   } catch (const rosbag::BagException& error) {

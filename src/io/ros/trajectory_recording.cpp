@@ -1,6 +1,5 @@
 #include <cstdint>
 
-#include "io/ros/cdr_writer.hpp"
 #include "io/ros/mcap_writer.hpp"
 #include "io/ros/pose_messages.hpp"
 #include "rilo/io/trajectory_files.hpp"
@@ -46,28 +45,18 @@ std::string tf_definition() {
                      kVector3Definition, kQuaternionDefinition});
 }
 
-struct Ros2Message : detail::CdrWriter {
-  void put_stamp(std::int64_t stamp_ns) {
-    constexpr std::uint32_t kLastSecond = 0x7FFFFFFF;  // builtin_interfaces/Time has int32
-    const detail::MessageStamp stamp = detail::message_stamp(stamp_ns, 0, kLastSecond);
-    put(stamp.seconds).put(stamp.nanoseconds);
-  }
-};
-
 }  // namespace
 
 void write_mcap(const std::filesystem::path& file, std::span<const SweepResult> results, const RecordingNames& names) {
+  constexpr MessageEncoding kCdr = MessageEncoding::kCdr;
   detail::McapWriter writer(file);
   const std::uint16_t odometry =
       writer.add_channel(names.odometry_topic, "nav_msgs/msg/Odometry", odometry_definition());
   const std::uint16_t tf = writer.add_channel(names.tf_topic, "tf2_msgs/msg/TFMessage", tf_definition());
   for (std::size_t i = 0; i < results.size(); ++i) {
-    Ros2Message odometry_message;
-    Ros2Message transform;
-    detail::put_odometry(odometry_message, results, i, names);
-    detail::put_transform(transform, results[i], names);
-    writer.add_message(odometry, results[i].stamp_ns, odometry_message.bytes());
-    writer.add_message(tf, results[i].stamp_ns, transform.bytes());
+    const std::int64_t stamp_ns = results[i].stamp_ns;
+    writer.add_message(odometry, stamp_ns, detail::odometry_message(kCdr, results, i, names).bytes());
+    writer.add_message(tf, stamp_ns, detail::transform_message(kCdr, results, i, names).bytes());
   }
   writer.finish();
 }

@@ -6,17 +6,8 @@
 #include "io/io_test_util.hpp"
 #include "io/packets/packet_bytes.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::azimuth_deg;
-using test::expect_io_error;
-using test::kOusterShapes;
-using test::ouster_drive;
-using test::ouster_metadata;
-using test::OusterShape;
-using test::sweeps_of;
-using test::TempDir;
 
 TEST(OusterTest, FramesOfEveryProfile) {
   for (const OusterShape& shape : kOusterShapes) {
@@ -109,9 +100,9 @@ TEST(OusterTest, MetadataTurnedOver) {
     std::string json = whole;
     for (int k = 0; k < 1 + round % 3; ++k) json[random() % json.size()] = static_cast<char>(' ' + random() % 90);
     folder.write("o.json", json);
-    test::reads_or_refuses([&] { sweeps_of(*open_scan_source(file)); });
+    reads_or_refuses([&] { sweeps_of(*open_scan_source(file)); });
   }
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -6,20 +6,8 @@
 #include "io/packets/packet_decoder.hpp"
 #include "io/packets/udp_reader.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::Bytes;
-using test::Capture;
-using test::expect_io_error;
-using test::has_warning;
-using test::kCaptureBegin;
-using test::kOusterShapes;
-using test::ouster_drive;
-using test::ouster_metadata;
-using test::sweeps_of;
-using test::TempDir;
-using test::velodyne_drive;
 
 std::size_t datagrams(const TempDir& folder, const std::string& bytes) {
   detail::UdpReader reader(folder.write("u.pcap", bytes));
@@ -120,8 +108,8 @@ TEST(PacketSourceTest, HostileBytes) {
     const std::string whole =
         velodyne ? velodyne_drive(0x22, 2.5).text() : ouster_drive(kOusterShapes[0], 100, 400).text();
     for (int round = 0; round < 60; ++round) {
-      const auto file = folder.write("o.pcap", test::damaged(whole, round, 5 * (round % 5), random));
-      test::reads_or_refuses([&] {
+      const auto file = folder.write("o.pcap", damaged(whole, round, 5 * (round % 5), random));
+      reads_or_refuses([&] {
         for (const Sweep& sweep : sweeps_of(*open_scan_source(file))) {
           EXPECT_EQ(sweep.times_s.size(), sweep.points.size());
         }
@@ -131,4 +119,4 @@ TEST(PacketSourceTest, HostileBytes) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

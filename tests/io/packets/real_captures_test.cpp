@@ -10,11 +10,9 @@
 #include "rilo/io/point_cloud2.hpp"
 #include "rilo/odometry/odometry.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::RealFiles;
-using test::sweeps_of;
 namespace fs = std::filesystem;
 
 // The packets of a VelodyneScan in CDR: stamp and 1206 bytes each.
@@ -153,12 +151,12 @@ TEST_F(RealFiles, PacketsInRecordings) {
 TEST_F(RealFiles, OusterMetadataByName) {
   const auto source = open_scan_source(file("pcap/ouster/OS-1-128_v2.3.0_1024x10_lb_n3.pcap"));
   EXPECT_EQ(sweeps_of(*source).size(), 3U);
-  test::expect_io_error([] { open_scan_source(file("pcap/ouster/OS-1-64_1024x10_fw20.pcap")); },
-                        {"metadata files of an Ouster beside it", "OS-1-64_sensor_config_reduced.json"});
+  expect_io_error([] { open_scan_source(file("pcap/ouster/OS-1-64_1024x10_fw20.pcap")); },
+                  {"metadata files of an Ouster beside it", "OS-1-64_sensor_config_reduced.json"});
 }
 
 TEST_F(RealFiles, APointCloud2InCdr) {
-  const std::string bytes = test::slurp(file("cdr/cloudini_pointcloud2_dds_message.bin"));
+  const std::string bytes = slurp(file("cdr/cloudini_pointcloud2_dds_message.bin"));
   const PointCloud2 message = parse_point_cloud2(bytes, MessageEncoding::kCdr, "dds_message.bin");
   const RawCloud cloud = columns_of(message, "", "dds_message.bin");
   EXPECT_EQ(cloud.points.size(), std::size_t{message.width} * message.height);
@@ -168,4 +166,4 @@ TEST_F(RealFiles, APointCloud2InCdr) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

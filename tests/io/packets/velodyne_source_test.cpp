@@ -5,18 +5,8 @@
 #include "io/io_test_util.hpp"
 #include "io/packets/packet_bytes.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::azimuth_deg;
-using test::Capture;
-using test::expect_io_error;
-using test::has_warning;
-using test::kCaptureBegin;
-using test::sweeps_of;
-using test::TempDir;
-using test::velodyne_drive;
-using test::velodyne_packet;
 
 double elevation_deg(const Eigen::Vector3f& point) {
   return std::asin(static_cast<double>(point.z() / point.norm())) * 180 / std::numbers::pi;
@@ -128,4 +118,4 @@ TEST(VelodyneTest, TheHourEnds) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

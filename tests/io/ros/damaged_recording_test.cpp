@@ -4,17 +4,9 @@
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::expect_io_error;
-using test::expect_same_sweep;
-using test::has_warning;
-using test::kRos2Type;
-using test::numbered_sweeps;
-using test::recorded;
-using test::TempDir;
-using test::Topics;
 namespace fs = std::filesystem;
 
 const Topics kTopics{{"/imu", "sensor_msgs/msg/Imu"}, {"/points", kRos2Type}};
@@ -22,9 +14,9 @@ const Topics kTopics{{"/imu", "sensor_msgs/msg/Imu"}, {"/points", kRos2Type}};
 TEST(DamagedRecordingTest, CutOffMcapIsReadAsFarAsItGoes) {
   const TempDir folder;
   const auto sweeps = numbered_sweeps(5);
-  const std::string whole = test::mcap_bytes(kTopics, recorded(sweeps, MessageEncoding::kCdr), {"zstd", 2, true});
+  const std::string whole = mcap_bytes(kTopics, recorded(sweeps, MessageEncoding::kCdr), {"zstd", 2, true});
   const auto whole_chunks =
-      test::mcap_bytes(kTopics, recorded(numbered_sweeps(4), MessageEncoding::kCdr), {"zstd", 2, false});
+      mcap_bytes(kTopics, recorded(numbered_sweeps(4), MessageEncoding::kCdr), {"zstd", 2, false});
   // Inside the last chunk: the first two, four sweeps, are whole.
   const std::size_t cut = whole_chunks.size() - 30;  // behind them: 50 bytes of end of data, footer and magic
   const auto source = open_scan_source(folder.write("cut.mcap", whole.substr(0, cut)));
@@ -36,7 +28,7 @@ TEST(DamagedRecordingTest, CutOffMcapIsReadAsFarAsItGoes) {
 TEST(DamagedRecordingTest, ADamagedChunkIsLeftOut) {
   const TempDir folder;
   const auto sweeps = numbered_sweeps(3);
-  std::string bytes = test::mcap_bytes(kTopics, recorded(sweeps, MessageEncoding::kCdr), {"", 1, true});
+  std::string bytes = mcap_bytes(kTopics, recorded(sweeps, MessageEncoding::kCdr), {"", 1, true});
   const std::size_t second = bytes.find("lidar", bytes.find("lidar") + 1);
   bytes[second + 200] = static_cast<char>(~bytes[second + 200]);
   const fs::path file = folder.write("bad.mcap", bytes);
@@ -68,10 +60,10 @@ TEST(DamagedRecordingTest, FilesThatAreNone) {
   expect_io_error([&] { open_scan_source(folder / "m"); }, {"metadata.yaml", "not valid YAML"});
   folder.write("m/metadata.yaml", "x: 1\n");
   expect_io_error([&] { open_scan_source(folder / "m"); }, {"metadata.yaml", "no rosbag2_bagfile_information"});
-  folder.write("m/metadata.yaml", test::metadata_yaml({"gone.db3"}, "sqlite3"));
+  folder.write("m/metadata.yaml", metadata_yaml({"gone.db3"}, "sqlite3"));
   expect_io_error([&] { open_scan_source(folder / "m"); }, {"'gone.db3'", "not in the folder"});
   folder.write("m/gone.db3.zstd", "no zstd");
-  folder.write("m/metadata.yaml", test::metadata_yaml({"gone.db3.zstd"}, "sqlite3", "FILE"));
+  folder.write("m/metadata.yaml", metadata_yaml({"gone.db3.zstd"}, "sqlite3", "FILE"));
   expect_io_error([&] { open_scan_source(folder / "m"); }, {"gone.db3.zstd", "zstd data"});
 }
 
@@ -80,9 +72,9 @@ TEST(DamagedRecordingTest, AFileOfASplitRecordingIsLeftOut) {
   const TempDir folder;
   const auto sweeps = numbered_sweeps(4);
   const auto messages = recorded(sweeps, MessageEncoding::kCdr);
-  folder.write("m/m_0.mcap", test::mcap_bytes(kTopics, {messages[0], messages[1]}, {"zstd", 2, true}));
+  folder.write("m/m_0.mcap", mcap_bytes(kTopics, {messages[0], messages[1]}, {"zstd", 2, true}));
   folder.write("m/m_1.mcap", "");
-  folder.write("m/m_2.mcap", test::mcap_bytes(kTopics, {messages[2], messages[3]}, {"zstd", 2, true}));
+  folder.write("m/m_2.mcap", mcap_bytes(kTopics, {messages[2], messages[3]}, {"zstd", 2, true}));
   const auto source = open_scan_source(folder / "m");
   EXPECT_EQ(source->size(), 4U);
   for (const Sweep& sweep : sweeps) expect_same_sweep(source->next().value(), sweep);
@@ -95,7 +87,7 @@ TEST(DamagedRecordingTest, AFileOfASplitRecordingIsLeftOut) {
 
 TEST(DamagedRecordingTest, AnMcapCutOffBeforeItsFirstChunkSaysSo) {
   const TempDir folder;
-  const std::string whole = test::mcap_bytes(kTopics, recorded(numbered_sweeps(2), MessageEncoding::kCdr), {});
+  const std::string whole = mcap_bytes(kTopics, recorded(numbered_sweeps(2), MessageEncoding::kCdr), {});
   expect_io_error([&] { open_scan_source(folder.write("cut.mcap", whole.substr(0, 40))); }, {"no topics", "cut off"});
 }
 
@@ -103,8 +95,8 @@ TEST(DamagedRecordingTest, AnMcapCutOffBeforeItsFirstChunkSaysSo) {
 TEST(DamagedRecordingTest, PackedMessagesWithoutMetadataAreNamed) {
   const TempDir folder;
   auto messages = recorded(numbered_sweeps(2), MessageEncoding::kCdr);
-  for (auto& message : messages) message.bytes = test::zstd_of(message.bytes);
-  test::write_db3(folder.write("d/d_0.db3", ""), kTopics, messages);
+  for (auto& message : messages) message.bytes = zstd_of(message.bytes);
+  write_db3(folder.write("d/d_0.db3", ""), kTopics, messages);
   const auto source = open_scan_source(folder / "d");
   expect_io_error([&] { source->next(); }, {"message 1 of /points", "zstd", "metadata.yaml"});
 }
@@ -143,7 +135,7 @@ std::string page_of_one_child(std::size_t bytes, std::uint32_t child) {
 TEST(DamagedRecordingTest, ADatabaseOfRowsWithoutEnd) {
   const TempDir folder;
   const fs::path file = folder / "e.db3";
-  test::write_db3(file, kTopics, recorded(numbered_sweeps(1, 4), MessageEncoding::kCdr));
+  write_db3(file, kTopics, recorded(numbered_sweeps(1, 4), MessageEncoding::kCdr));
   sqlite3* database = nullptr;
   sqlite3_open(file.c_str(), &database);
   sqlite3_stmt* row = nullptr;
@@ -152,7 +144,7 @@ TEST(DamagedRecordingTest, ADatabaseOfRowsWithoutEnd) {
   const auto root = static_cast<std::size_t>(sqlite3_column_int(row, 0));
   sqlite3_finalize(row);
   sqlite3_close(database);
-  std::string bytes = test::slurp(file);
+  std::string bytes = slurp(file);
   const std::size_t page = static_cast<unsigned char>(bytes[16]) * 256U;
   ASSERT_EQ(page, 4096U);
   bytes += bytes.substr((root - 1) * page, page);  // the only leaf
@@ -168,7 +160,7 @@ TEST(DamagedRecordingTest, ADatabaseOfRowsWithoutEnd) {
 TEST(DamagedRecordingTest, AnnouncedSizesAreNotBelieved) {
   const TempDir folder;
   const auto messages = recorded(numbered_sweeps(1), MessageEncoding::kCdr);
-  std::string bytes = test::mcap_bytes(kTopics, messages, {"zstd", 1, true});
+  std::string bytes = mcap_bytes(kTopics, messages, {"zstd", 1, true});
   const std::size_t chunk = bytes.find('\x06', 30);
   for (std::size_t i = 0; i < 7; ++i) bytes[chunk + 9 + 16 + i] = '\x7F';
   const auto source = open_scan_source(folder.write("big.mcap", bytes));
@@ -176,4 +168,4 @@ TEST(DamagedRecordingTest, AnnouncedSizesAreNotBelieved) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -6,13 +6,8 @@
 #include "rilo/io/live_queue.hpp"
 #include "rilo/io/scan_source.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::kRos1Type;
-using test::numbered_sweeps;
-using test::Recorded;
-using test::TempDir;
 
 std::shared_ptr<LiveQueue> live_queue(std::size_t limit, std::size_t look_ahead) {
   LiveQueueOptions options;
@@ -22,7 +17,7 @@ std::shared_ptr<LiveQueue> live_queue(std::size_t limit, std::size_t look_ahead)
 }
 
 std::vector<Recorded> ros1_messages(std::size_t count) {
-  return test::recorded(numbered_sweeps(count), MessageEncoding::kRos1);
+  return recorded(numbered_sweeps(count), MessageEncoding::kRos1);
 }
 
 void push_all(LiveQueue& queue, const std::vector<Recorded>& messages) {
@@ -35,10 +30,10 @@ TEST(LiveSource, SweepsAreThoseOfARecording) {
   auto sweeps = numbered_sweeps(20, 60);
   for (std::size_t i = 0; i < sweeps.size(); ++i)
     sweeps[i].stamp_ns += static_cast<std::int64_t>(i * i % 7) * 1'300'000;
-  const auto messages = test::recorded(sweeps, MessageEncoding::kRos1);
-  test::McapShape shape;
+  const auto messages = recorded(sweeps, MessageEncoding::kRos1);
+  McapShape shape;
   shape.encoding = "ros1";
-  const auto file = folder.write("drive.mcap", test::mcap_bytes({{"/points", kRos1Type}}, messages, shape));
+  const auto file = folder.write("drive.mcap", mcap_bytes({{"/points", kRos1Type}}, messages, shape));
   for (const PointTimes times : {PointTimes::kAuto, PointTimes::kAzimuth}) {
     SourceOptions options;
     options.point_times = times;
@@ -51,7 +46,7 @@ TEST(LiveSource, SweepsAreThoseOfARecording) {
       const auto expected = recording->next();
       const auto sweep = live->next();
       ASSERT_TRUE(expected && sweep);
-      test::expect_same_sweep(*sweep, *expected);
+      expect_same_sweep(*sweep, *expected);
       EXPECT_EQ(live->current_index(), i);
     }
     EXPECT_EQ(live->info().period_s, recording->info().period_s);
@@ -103,7 +98,7 @@ TEST(LiveSource, AMessageThatCannotBeReadIsReportedInItsTurn) {
     push_all(*queue, messages);
     const auto source = open_live_source(queue);
     EXPECT_TRUE(source->next());
-    test::expect_io_error([&] { source->next(); }, {"message 2 of /points"});
+    expect_io_error([&] { source->next(); }, {"message 2 of /points"});
     EXPECT_EQ(source->next()->stamp_ns, numbered_sweeps(3)[2].stamp_ns);
   }
 }
@@ -120,4 +115,4 @@ TEST(LiveSource, ClosingEndsAReaderThatWaits) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

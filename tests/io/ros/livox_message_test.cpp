@@ -4,16 +4,8 @@
 #include "io/ros/driver_messages.hpp"
 #include "io/ros/scan_containers.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::Bytes;
-using test::expect_io_error;
-using test::has_warning;
-using test::in_every_container;
-using test::Recorded;
-using test::sweeps_of;
-using test::TempDir;
 
 constexpr std::int64_t kFirstLivoxStamp = 1'700'000'000'250'000'000;
 constexpr std::uint32_t kPoints = 41;
@@ -22,14 +14,14 @@ constexpr std::uint32_t kPoints = 41;
 std::string livox_message(bool ros1, std::size_t number, std::uint32_t announced = kPoints) {
   const std::int64_t stamp_ns = kFirstLivoxStamp + static_cast<std::int64_t>(number) * 100'000'000;
   Bytes bytes(!ros1);
-  test::put_header(bytes, ros1, stamp_ns, "livox_frame");
+  put_header(bytes, ros1, stamp_ns, "livox_frame");
   bytes.put(static_cast<std::uint64_t>(stamp_ns)).put(kPoints).put(std::uint8_t{3}).raw("rsv").put(announced);
   for (std::uint32_t k = 0; k < kPoints; ++k) {
     bytes.put(k * 2'000'000);
     bytes.put(static_cast<float>(number) + 1.5F).put(static_cast<float>(k)).put(-0.25F);
     bytes.put(static_cast<std::uint8_t>(k + 100)).put(std::uint8_t{0x10}).put(static_cast<std::uint8_t>(k % 4));
   }
-  return test::finished(bytes, ros1);
+  return finished(bytes, ros1);
 }
 
 std::vector<Recorded> messages(bool ros1) {
@@ -76,14 +68,13 @@ TEST(LivoxTest, BothDriversInEveryContainer) {
 TEST(LivoxTest, TheUnitIsNotInferred) {
   const TempDir folder;
   Bytes bytes(true);
-  test::put_header(bytes, false, kFirstLivoxStamp, "l");
+  put_header(bytes, false, kFirstLivoxStamp, "l");
   bytes.put(std::uint64_t{0}).put(std::uint32_t{2}).put(std::uint32_t{0}).put(std::uint32_t{2});
   for (const std::uint32_t time : {0U, 10'000U}) {
     bytes.put(time).put(1.0F).put(2.0F).put(3.0F).put(std::uint8_t{1}).put(std::uint8_t{0}).put(std::uint8_t{0});
   }
-  const auto file =
-      folder.write("l.mcap", test::mcap_bytes({{"/l", "livox_ros_driver2/msg/CustomMsg"}},
-                                              {{"/l", kFirstLivoxStamp, test::finished(bytes, false)}}, {}));
+  const auto file = folder.write("l.mcap", mcap_bytes({{"/l", "livox_ros_driver2/msg/CustomMsg"}},
+                                                      {{"/l", kFirstLivoxStamp, finished(bytes, false)}}, {}));
   const auto sweeps = sweeps_of(*open_scan_source(file));
   ASSERT_EQ(sweeps.size(), 1U);
   EXPECT_EQ(sweeps[0].times_s[1], 1e-5F);
@@ -95,9 +86,9 @@ TEST(LivoxTest, ASecondSensorInTheTopicIsNamed) {
   auto all = messages(false);
   const std::size_t id = all[2].bytes.find("rsv") - 1;
   all[2].bytes[id] = 4;
-  const auto file = folder.write("l.mcap", test::mcap_bytes({{"/livox/lidar", "livox_ros_driver2/msg/CustomMsg"},
-                                                             {"/livox/imu", "sensor_msgs/msg/Imu"}},
-                                                            all, {}));
+  const auto file = folder.write(
+      "l.mcap", mcap_bytes({{"/livox/lidar", "livox_ros_driver2/msg/CustomMsg"}, {"/livox/imu", "sensor_msgs/msg/Imu"}},
+                           all, {}));
   const auto source = open_scan_source(file);
   EXPECT_TRUE(source->next());
   expect_io_error([&] { source->next(); }, {"message 2 of /livox/lidar", "LiDAR 4", "LiDAR 3", "one sensor"});
@@ -109,9 +100,9 @@ TEST(LivoxTest, CutOffAtEveryByte) {
     const std::string whole = livox_message(ros1, 0);
     const auto encoding = ros1 ? MessageEncoding::kRos1 : MessageEncoding::kCdr;
     EXPECT_EQ(detail::parse_livox(whole, encoding, "l.bag", "").cloud.points.size(), kPoints);
-    test::expect_refused_cuts(
-        whole, [&](const std::string& cut) { detail::parse_livox(cut, encoding, "l.bag", "message 1 of /l"); },
-        {"l.bag", "message 1 of /l", "byte"});
+    expect_refused_cuts(whole,
+                        [&](const std::string& cut) { detail::parse_livox(cut, encoding, "l.bag", "message 1 of /l"); },
+                        {"l.bag", "message 1 of /l", "byte"});
   }
 }
 
@@ -125,7 +116,7 @@ TEST(LivoxTest, HostileBytes) {
     std::string bytes = livox_message(ros1, 0);
     for (int k = 0; k < 3; ++k) bytes[random() % 60] = static_cast<char>(random());
     const auto encoding = ros1 ? MessageEncoding::kRos1 : MessageEncoding::kCdr;
-    test::reads_or_refuses(
+    reads_or_refuses(
         [&] { EXPECT_LE(detail::parse_livox(bytes, encoding, "l.bag", "").cloud.points.size(), kPoints); });
   }
 }
@@ -134,9 +125,9 @@ TEST(LivoxTest, ATruncatedMessageIsAnErrorOrCounted) {
   const TempDir folder;
   auto all = messages(false);
   all[4].bytes.resize(200);
-  const auto file = folder.write("l.mcap", test::mcap_bytes({{"/livox/lidar", "livox_ros_driver2/msg/CustomMsg"},
-                                                             {"/livox/imu", "sensor_msgs/msg/Imu"}},
-                                                            all, {}));
+  const auto file = folder.write(
+      "l.mcap", mcap_bytes({{"/livox/lidar", "livox_ros_driver2/msg/CustomMsg"}, {"/livox/imu", "sensor_msgs/msg/Imu"}},
+                           all, {}));
   const auto failing = open_scan_source(file);
   EXPECT_TRUE(failing->next() && failing->next());
   expect_io_error([&] { failing->next(); }, {"l.mcap", "message 3 of /livox/lidar", "byte"});
@@ -149,4 +140,4 @@ TEST(LivoxTest, ATruncatedMessageIsAnErrorOrCounted) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

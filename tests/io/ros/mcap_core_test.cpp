@@ -5,7 +5,7 @@
 
 #include "io/io_test_util.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,7 +35,7 @@ TEST(McapCoreTest, ChunkedAndUnchunkedWithEveryCompression) { expect_all(RILO_SO
 TEST(McapCoreTest, WrittenAnew) {
   const char* modules = std::getenv("RILO_NODE_MODULES");
   if (modules == nullptr) GTEST_SKIP() << "RILO_NODE_MODULES is not set";
-  const test::TempDir folder;
+  const TempDir folder;
   const std::string command = "node '" RILO_SOURCE_DIR "/tests/io/ros/write_mcap.cjs' '" + std::string(modules) +
                               "' '" + folder.path().string() + "'";
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
@@ -43,4 +43,4 @@ TEST(McapCoreTest, WrittenAnew) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -5,22 +5,8 @@
 #include "io/ros/driver_messages.hpp"
 #include "io/ros/scan_containers.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::Bytes;
-using test::Capture;
-using test::expect_io_error;
-using test::has_warning;
-using test::in_every_container;
-using test::kOusterShapes;
-using test::ouster_metadata;
-using test::ouster_packet;
-using test::OusterShape;
-using test::Recorded;
-using test::sweeps_of;
-using test::TempDir;
-using test::velodyne_packet;
 
 constexpr std::int64_t kFirstPacketStamp = 1'700'000'123'000'000'000;
 constexpr int kPackets = 130;  // 30 a revolution
@@ -37,20 +23,20 @@ std::vector<Recorded> velodyne_scans(bool ros1) {
   for (int first = 0; first < kPackets; first += kAScan) {
     const int count = std::min(kAScan, kPackets - first);
     Bytes bytes(!ros1);
-    test::put_header(bytes, ros1, received_ns(first), "velodyne");
+    put_header(bytes, ros1, received_ns(first), "velodyne");
     bytes.put(static_cast<std::uint32_t>(count));
     for (int i = first; i < first + count; ++i) {
       bytes.put(static_cast<std::uint32_t>(received_ns(i) / 1'000'000'000));
       bytes.put(static_cast<std::uint32_t>(received_ns(i) % 1'000'000'000)).raw(vlp16(i));
     }
-    messages.push_back({"/velodyne_packets", received_ns(first + count), test::finished(bytes, ros1)});
+    messages.push_back({"/velodyne_packets", received_ns(first + count), finished(bytes, ros1)});
   }
   return messages;
 }
 
 void expect_same_sweeps(const std::vector<Sweep>& sweeps, const std::vector<Sweep>& expected) {
   ASSERT_EQ(sweeps.size(), expected.size());
-  for (std::size_t i = 0; i < sweeps.size(); ++i) test::expect_same_sweep(sweeps[i], expected[i]);
+  for (std::size_t i = 0; i < sweeps.size(); ++i) expect_same_sweep(sweeps[i], expected[i]);
 }
 
 TEST(VelodyneScanTest, TheSweepsOfACaptureInEveryContainer) {
@@ -75,9 +61,9 @@ TEST(VelodyneScanTest, TheSweepsOfACaptureInEveryContainer) {
 
 // --- Ouster -------------------------------------------------------------------------------------------------------
 
-std::string text_message(bool ros1, const std::string& text) { return test::finished(Bytes(!ros1).string(text), ros1); }
+std::string text_message(bool ros1, const std::string& text) { return finished(Bytes(!ros1).string(text), ros1); }
 std::string packet_message(bool ros1, const std::string& packet) {
-  return test::finished(Bytes(!ros1).sequence(packet), ros1);
+  return finished(Bytes(!ros1).sequence(packet), ros1);
 }
 
 // 70 packets: a frame of 64 and the beginning of the next. `more`: bytes that the buffer has behind the packet.
@@ -95,9 +81,9 @@ std::vector<Recorded> ouster_messages(bool ros1, const OusterShape& shape, bool 
   return messages;
 }
 
-std::vector<test::TopicInBoth> ouster_topics(const std::string& package, bool with_metadata) {
-  std::vector<test::TopicInBoth> topics{{"/os_node/lidar_packets", package, "PacketMsg"},
-                                        {"/os_node/imu_packets", package, "PacketMsg"}};
+std::vector<TopicInBoth> ouster_topics(const std::string& package, bool with_metadata) {
+  std::vector<TopicInBoth> topics{{"/os_node/lidar_packets", package, "PacketMsg"},
+                                  {"/os_node/imu_packets", package, "PacketMsg"}};
   if (with_metadata) topics.push_back({"/os_node/metadata", "std_msgs", "String"});
   return topics;
 }
@@ -149,9 +135,9 @@ TEST(OusterPacketsTest, MetadataOfTheOtherSensorIsNotTaken) {
   const TempDir folder;
   auto messages = ouster_messages(false, kOusterShapes[2], true);
   messages.push_back({"/rear/metadata", kFirstPacketStamp, text_message(false, ouster_metadata(kOusterShapes[0]))});
-  test::Topics topics{{"/rear/metadata", "std_msgs/msg/String"}};
+  Topics topics{{"/rear/metadata", "std_msgs/msg/String"}};
   for (const auto& topic : ouster_topics("ouster_ros", true)) topics.emplace_back(topic.name, topic.full_type(false));
-  expect_frame(*open_scan_source(folder.write("o.mcap", test::mcap_bytes(topics, messages, {}))), kOusterShapes[2]);
+  expect_frame(*open_scan_source(folder.write("o.mcap", mcap_bytes(topics, messages, {}))), kOusterShapes[2]);
 }
 
 TEST(OusterPacketsTest, MetadataThatDoNotFit) {
@@ -159,9 +145,9 @@ TEST(OusterPacketsTest, MetadataThatDoNotFit) {
   const auto write = [&](const std::string& metadata) {
     auto messages = ouster_messages(false, kOusterShapes[2], true);
     messages[0].bytes = text_message(false, metadata);
-    test::Topics topics;
+    Topics topics;
     for (const auto& topic : ouster_topics("ouster_ros", true)) topics.emplace_back(topic.name, topic.full_type(false));
-    return folder.write("o.mcap", test::mcap_bytes(topics, messages, {}));
+    return folder.write("o.mcap", mcap_bytes(topics, messages, {}));
   };
   const auto other = write(ouster_metadata(kOusterShapes[0]));
   expect_io_error([&] { open_scan_source(other); },
@@ -175,12 +161,12 @@ TEST(OusterPacketsTest, MetadataThatDoNotFit) {
 TEST(PacketTopicsTest, CloudsAreTakenBeforePackets) {
   const TempDir folder;
   auto messages = velodyne_scans(false);
-  for (Recorded& cloud : test::recorded(test::numbered_sweeps(4), MessageEncoding::kCdr)) {
+  for (Recorded& cloud : recorded(numbered_sweeps(4), MessageEncoding::kCdr)) {
     messages.push_back(std::move(cloud));
   }
-  const auto file = folder.write("both.mcap", test::mcap_bytes({{"/velodyne_packets", "velodyne_msgs/msg/VelodyneScan"},
-                                                                {"/points", test::kRos2Type}},
-                                                               messages, {}));
+  const auto file = folder.write(
+      "both.mcap",
+      mcap_bytes({{"/velodyne_packets", "velodyne_msgs/msg/VelodyneScan"}, {"/points", kRos2Type}}, messages, {}));
   EXPECT_EQ(open_scan_source(file)->info().topic, "/points");
   SourceOptions options;
   options.topic = "velodyne_packets";  // without the slash
@@ -193,12 +179,11 @@ TEST(PacketTopicsTest, SeveralOrNoneAreListed) {
   messages.push_back({"/rear/packets", kFirstPacketStamp, messages[0].bytes});
   const std::string type = "velodyne_msgs/msg/VelodyneScan";
   const auto two =
-      folder.write("two.mcap", test::mcap_bytes({{"/velodyne_packets", type}, {"/rear/packets", type}}, messages, {}));
+      folder.write("two.mcap", mcap_bytes({{"/velodyne_packets", type}, {"/rear/packets", type}}, messages, {}));
   expect_io_error(
       [&] { open_scan_source(two); },
       {"2 topics of LiDAR packets", "/rear/packets (velodyne_msgs/msg/VelodyneScan, 1 messages)", "--topic"});
-  const auto none =
-      folder.write("none.mcap", test::mcap_bytes({{"/imu", "sensor_msgs/msg/Imu"}}, {{"/imu", 1, "x"}}, {}));
+  const auto none = folder.write("none.mcap", mcap_bytes({{"/imu", "sensor_msgs/msg/Imu"}}, {{"/imu", 1, "x"}}, {}));
   expect_io_error([&] { open_scan_source(none); }, {"/imu (sensor_msgs/msg/Imu, 1 messages)", "Livox CustomMsg"});
 }
 
@@ -209,12 +194,12 @@ TEST(PacketTopicsTest, CutOffAtEveryByte) {
     const auto encoding = ros1 ? MessageEncoding::kRos1 : MessageEncoding::kCdr;
     const std::string scan = velodyne_scans(ros1).back().bytes;  // of 6 packets
     EXPECT_EQ(detail::parse_velodyne_scan(scan, encoding, "v", "").packets.size(), 6U);
-    test::expect_refused_cuts(
+    expect_refused_cuts(
         scan, [&](const std::string& cut) { detail::parse_velodyne_scan(cut, encoding, "v.bag", "message 1"); },
         {"v.bag", "message 1", "byte"});
     const std::string packet = packet_message(ros1, "packet");
     EXPECT_EQ(detail::parse_ouster_packet(packet, encoding, "o", ""), "packet");
-    test::expect_refused_cuts(
+    expect_refused_cuts(
         packet, [&](const std::string& cut) { detail::parse_ouster_packet(cut, encoding, "o.bag", "message 1"); },
         {"o.bag", "message 1", "byte"});
   }
@@ -225,7 +210,7 @@ TEST(PacketTopicsTest, ATruncatedMessageIsAnErrorOrCounted) {
   auto messages = velodyne_scans(false);
   messages[2].bytes.resize(5000);
   const auto file =
-      folder.write("v.mcap", test::mcap_bytes({{"/velodyne_packets", "velodyne_msgs/msg/VelodyneScan"}}, messages, {}));
+      folder.write("v.mcap", mcap_bytes({{"/velodyne_packets", "velodyne_msgs/msg/VelodyneScan"}}, messages, {}));
   const auto failing = open_scan_source(file);
   std::size_t before = 0;
   expect_io_error(
@@ -250,9 +235,9 @@ TEST(PacketTopicsTest, PacketsOfAnotherSizeAreCounted) {
   const TempDir folder;
   auto messages = ouster_messages(false, kOusterShapes[2], true);
   for (const std::size_t i : {21U, 41U}) messages[i].bytes = packet_message(false, "short");
-  test::Topics topics;
+  Topics topics;
   for (const auto& topic : ouster_topics("ouster_ros", true)) topics.emplace_back(topic.name, topic.full_type(false));
-  const auto source = open_scan_source(folder.write("o.mcap", test::mcap_bytes(topics, messages, {})));
+  const auto source = open_scan_source(folder.write("o.mcap", mcap_bytes(topics, messages, {})));
   const auto sweeps = sweeps_of(*source);
   ASSERT_EQ(sweeps.size(), 1U);
   EXPECT_EQ(sweeps[0].points.size(), 62U * 16 * 3);
@@ -269,13 +254,13 @@ TEST(PacketTopicsTest, HostileBytes) {
       bytes[random() % bytes.size()] = static_cast<char>(random());
       if (k < 3) bytes[random() % 60] = static_cast<char>(random());
     }
-    const auto file = folder.write(
-        "h.mcap", test::mcap_bytes({{"/velodyne_packets", "velodyne_msgs/msg/VelodyneScan"}}, messages, {}));
+    const auto file =
+        folder.write("h.mcap", mcap_bytes({{"/velodyne_packets", "velodyne_msgs/msg/VelodyneScan"}}, messages, {}));
     SourceOptions options;
     options.on_bad_sweep = round % 2 == 0 ? OnBadSweep::kSkip : OnBadSweep::kFail;
-    test::reads_or_refuses([&] { EXPECT_LE(sweeps_of(*open_scan_source(file, options)).size(), 60U); });
+    reads_or_refuses([&] { EXPECT_LE(sweeps_of(*open_scan_source(file, options)).size(), 60U); });
   }
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

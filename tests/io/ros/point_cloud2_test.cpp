@@ -6,13 +6,8 @@
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::Bytes;
-using test::CloudMessage;
-using test::expect_io_error;
-using test::message_bytes;
 
 constexpr auto kBoth = {MessageEncoding::kRos1, MessageEncoding::kCdr};
 
@@ -40,16 +35,16 @@ TEST(PointCloud2Test, EveryByteOfASmallMessage) {
 }
 
 TEST(PointCloud2Test, AllColumnsInBothEncodings) {
-  const Sweep sweep = test::numbered_sweeps(1)[0];
+  const Sweep sweep = numbered_sweeps(1)[0];
   for (const auto encoding : kBoth) {
     for (const char* frame : {"", "a", "ab", "abc", "abcd"}) {  // each shifts what follows in CDR
-      CloudMessage message = test::message_of(sweep);
+      CloudMessage message = message_of(sweep);
       message.frame_id = std::string(frame);
       const std::string bytes = message_bytes(message, encoding);
       const PointCloud2 parsed = parse_point_cloud2(bytes, encoding, "f");
       EXPECT_EQ(parsed.stamp_ns, sweep.stamp_ns);
       EXPECT_EQ(parsed.frame_id, frame);
-      test::expect_same(columns_of(parsed, "", "f"), sweep);
+      expect_same(columns_of(parsed, "", "f"), sweep);
     }
   }
 }
@@ -89,8 +84,8 @@ CloudMessage organised(std::uint32_t row_step) {
 TEST(PointCloud2Test, OrganisedWithPaddedRows) {
   CloudMessage message = organised(28);
   Bytes data;
-  data.raw(test::bytes_of<float>({1, 0, 0, 2, 0, 0})).put(std::uint32_t{99});
-  data.raw(test::bytes_of<float>({3, 0, 0, 4, 0, 0})).put(std::uint32_t{99});
+  data.raw(bytes_of<float>({1, 0, 0, 2, 0, 0})).put(std::uint32_t{99});
+  data.raw(bytes_of<float>({3, 0, 0, 4, 0, 0})).put(std::uint32_t{99});
   message.data = data.text;
   const auto xs = [&] {
     std::vector<float> all;
@@ -101,7 +96,7 @@ TEST(PointCloud2Test, OrganisedWithPaddedRows) {
   message.data.resize(message.data.size() - 4);  // the last row's padding may be missing
   EXPECT_EQ(xs(), (std::vector<float>{1, 2, 3, 4}));
   message = organised(0);  // unset by the driver: no padding
-  message.data = test::bytes_of<float>({1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0});
+  message.data = bytes_of<float>({1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0});
   EXPECT_EQ(xs(), (std::vector<float>{1, 2, 3, 4}));
 }
 
@@ -146,15 +141,14 @@ TEST(PointCloud2Test, RefusesWhatContradictsItself) {
 }
 
 TEST(PointCloud2Test, RefusesBytesThatAreNone) {
-  const std::string whole = message_bytes(test::message_of(test::numbered_sweeps(1)[0]), MessageEncoding::kCdr);
+  const std::string whole = message_bytes(message_of(numbered_sweeps(1)[0]), MessageEncoding::kCdr);
   expect_io_error([&] { parse_point_cloud2("", MessageEncoding::kCdr, "f"); }, {"f, byte 0", "encapsulation"});
   std::string other = whole;
   other[1] = 0;  // big-endian CDR
   expect_io_error([&] { parse_point_cloud2(other, MessageEncoding::kCdr, "f"); }, {"encapsulation of 0 0", "0 1"});
   for (const auto encoding : kBoth) {
-    const std::string bytes = message_bytes(test::message_of(test::numbered_sweeps(1)[0]), encoding);
-    test::expect_refused_cuts(bytes, [&](const std::string& cut) { parse_point_cloud2(cut, encoding, "f"); },
-                              {"f, byte"});
+    const std::string bytes = message_bytes(message_of(numbered_sweeps(1)[0]), encoding);
+    expect_refused_cuts(bytes, [&](const std::string& cut) { parse_point_cloud2(cut, encoding, "f"); }, {"f, byte"});
   }
   Bytes fields;
   for (int i = 0; i < 6; ++i) fields.put(std::uint32_t{0});
@@ -166,11 +160,11 @@ TEST(PointCloud2Test, RefusesBytesThatAreNone) {
 TEST(PointCloud2Test, TurnedOverBytes) {
   std::mt19937 random(5);
   for (const auto encoding : kBoth) {
-    const std::string whole = message_bytes(test::message_of(test::numbered_sweeps(1)[0]), encoding);
+    const std::string whole = message_bytes(message_of(numbered_sweeps(1)[0]), encoding);
     for (int round = 0; round < 3000; ++round) {
       std::string bytes = whole;
       for (int k = 0; k < 1 + round % 4; ++k) bytes[random() % 200] = static_cast<char>(random());
-      test::reads_or_refuses([&] {
+      reads_or_refuses([&] {
         EXPECT_LE(columns_of(parse_point_cloud2(bytes, encoding, "f"), "", "f").points.size(), bytes.size());
       });
     }
@@ -178,4 +172,4 @@ TEST(PointCloud2Test, TurnedOverBytes) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

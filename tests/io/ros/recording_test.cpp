@@ -5,19 +5,9 @@
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::expect_io_error;
-using test::expect_same_sweep;
-using test::kRos1Type;
-using test::kRos2Type;
-using test::McapShape;
-using test::numbered_sweeps;
-using test::Recorded;
-using test::recorded;
-using test::TempDir;
-using test::Topics;
 namespace fs = std::filesystem;
 
 const Topics kRos1Topics{{"/imu", "sensor_msgs/Imu"}, {"/points", kRos1Type}};
@@ -45,7 +35,7 @@ Container mcap(const std::string& name, const McapShape& shape, const std::strin
   return {name,
           [=](const TempDir& folder, const std::vector<Sweep>& sweeps) {
             const auto messages = with_imu(sweeps, ros1 ? MessageEncoding::kRos1 : MessageEncoding::kCdr);
-            return folder.write(name + ".mcap", test::mcap_bytes(ros1 ? kRos1Topics : kRos2Topics, messages, shape));
+            return folder.write(name + ".mcap", mcap_bytes(ros1 ? kRos1Topics : kRos2Topics, messages, shape));
           },
           format};
 }
@@ -56,22 +46,22 @@ fs::path write_rosbag2(const TempDir& folder, const std::vector<Sweep>& sweeps, 
   const fs::path file = folder.write(name + "/b_0." + (storage == "mcap" ? "mcap" : "db3"), "");
   auto messages = with_imu(sweeps, MessageEncoding::kCdr);
   if (mode == "MESSAGE") {
-    for (Recorded& message : messages) message.bytes = test::zstd_of(message.bytes);
+    for (Recorded& message : messages) message.bytes = zstd_of(message.bytes);
   }
   fs::remove(file);
   if (storage == "mcap") {
-    folder.write(name + "/b_0.mcap", test::mcap_bytes(kRos2Topics, messages, {}));
+    folder.write(name + "/b_0.mcap", mcap_bytes(kRos2Topics, messages, {}));
   } else {
-    test::write_db3(file, kRos2Topics, messages);
+    write_db3(file, kRos2Topics, messages);
   }
   std::string stored = file.filename().string();
   if (mode == "FILE") {
-    const std::string bytes = test::slurp(file);
-    folder.write(name + "/" + stored + ".zstd", test::zstd_of(bytes));
+    const std::string bytes = slurp(file);
+    folder.write(name + "/" + stored + ".zstd", zstd_of(bytes));
     fs::remove(file);
     stored += ".zstd";
   }
-  folder.write(name + "/metadata.yaml", test::metadata_yaml({stored}, storage, mode));
+  folder.write(name + "/metadata.yaml", metadata_yaml({stored}, storage, mode));
   return folder / name;
 }
 
@@ -106,7 +96,7 @@ std::vector<Container> containers() {
     all.push_back({"bag " + compression,
                    [=](const TempDir& folder, const std::vector<Sweep>& sweeps) {
                      const auto messages = with_imu(sweeps, MessageEncoding::kRos1);
-                     test::write_bag(folder / (compression + ".bag"), kRos1Topics, messages, compression);
+                     write_bag(folder / (compression + ".bag"), kRos1Topics, messages, compression);
                      return folder / (compression + ".bag");
                    },
                    "ROS 1 bag"});
@@ -167,7 +157,7 @@ TEST(RecordingTest, SeveralTopics) {
   for (Recorded& message : messages) message.topic = "/rear";
   messages[1].topic = "/front";
   for (const std::size_t chunk : {std::size_t{0}, std::size_t{1}}) {
-    const fs::path file = folder.write("two.mcap", test::mcap_bytes(topics, messages, {"zstd", chunk, true, "cdr"}));
+    const fs::path file = folder.write("two.mcap", mcap_bytes(topics, messages, {"zstd", chunk, true, "cdr"}));
     expect_io_error([&] { open_scan_source(file); },
                     {"two.mcap", "2 topics of point clouds", "/front (sensor_msgs/msg/PointCloud2, 1 messages)",
                      "/rear (sensor_msgs/msg/PointCloud2, 2 messages)", "--topic"});
@@ -183,7 +173,7 @@ TEST(RecordingTest, SeveralTopics) {
     expect_io_error([&] { open_scan_source(file, options); },
                     {"the topic '/imu' with messages of type sensor_msgs/PointCloud2"});
   }
-  const fs::path none = folder.write("none.mcap", test::mcap_bytes({{"/imu", "sensor_msgs/msg/Imu"}}, {}, {}));
+  const fs::path none = folder.write("none.mcap", mcap_bytes({{"/imu", "sensor_msgs/msg/Imu"}}, {}, {}));
   expect_io_error([&] { open_scan_source(none); }, {"/imu", "a topic of type sensor_msgs/PointCloud2"});
 }
 
@@ -191,9 +181,9 @@ TEST(RecordingTest, SplitRecordingsContinue) {
   const auto sweeps = numbered_sweeps(4);
   const TempDir folder;
   const auto messages = recorded(sweeps, MessageEncoding::kCdr);
-  test::write_db3(folder.write("split/s_0.db3", ""), kRos2Topics, {messages[0], messages[1]});
-  test::write_db3(folder.write("split/s_1.db3", ""), kRos2Topics, {{"/imu", 1, "x"}});
-  test::write_db3(folder.write("split/s_10.db3", ""), kRos2Topics, {messages[2], messages[3]});
+  write_db3(folder.write("split/s_0.db3", ""), kRos2Topics, {messages[0], messages[1]});
+  write_db3(folder.write("split/s_1.db3", ""), kRos2Topics, {{"/imu", 1, "x"}});
+  write_db3(folder.write("split/s_10.db3", ""), kRos2Topics, {messages[2], messages[3]});
   const auto expect_all = [&](const fs::path& path) {
     const auto source = open_scan_source(path);
     EXPECT_EQ(source->size(), 4U);
@@ -204,13 +194,13 @@ TEST(RecordingTest, SplitRecordingsContinue) {
     expect_same_sweep(again->next().value(), sweeps[3]);
   };
   expect_all(folder / "split");  // the recorder was killed: no metadata.yaml
-  folder.write("split/metadata.yaml", test::metadata_yaml({"old/s_0.db3", "s_1.db3", "s_10.db3"}, "sqlite3"));
+  folder.write("split/metadata.yaml", metadata_yaml({"old/s_0.db3", "s_1.db3", "s_10.db3"}, "sqlite3"));
   expect_all(folder / "split");
 #ifdef RILO_HAS_ROSBAG
   const auto ros1 = recorded(sweeps, MessageEncoding::kRos1);
   fs::create_directory(folder / "bags");
-  test::write_bag(folder / "bags/d_2.bag", kRos1Topics, {ros1[0]});
-  test::write_bag(folder / "bags/d_10.bag", kRos1Topics, {ros1[1], ros1[2], ros1[3]}, "bz2");
+  write_bag(folder / "bags/d_2.bag", kRos1Topics, {ros1[0]});
+  write_bag(folder / "bags/d_10.bag", kRos1Topics, {ros1[1], ros1[2], ros1[3]}, "bz2");
   expect_all(folder / "bags");
 #endif
 }
@@ -236,13 +226,13 @@ TEST(RecordingTest, ASecondSensorInTheTopicIsNamed) {
   const auto sweeps = numbered_sweeps(4);
   auto messages = recorded(sweeps, MessageEncoding::kCdr);
   const TempDir folder;
-  const fs::path one = folder.write("one.mcap", test::mcap_bytes(kRos2Topics, messages, {}));
+  const fs::path one = folder.write("one.mcap", mcap_bytes(kRos2Topics, messages, {}));
   for (const std::size_t i : {1U, 3U}) {
-    test::CloudMessage other = test::message_of(sweeps[i]);
+    CloudMessage other = message_of(sweeps[i]);
     other.frame_id = "lidar_rear";
-    messages[i].bytes = test::message_bytes(other, MessageEncoding::kCdr);
+    messages[i].bytes = message_bytes(other, MessageEncoding::kCdr);
   }
-  const fs::path file = folder.write("two.mcap", test::mcap_bytes(kRos2Topics, messages, {}));
+  const fs::path file = folder.write("two.mcap", mcap_bytes(kRos2Topics, messages, {}));
   const auto source = open_scan_source(file);
   EXPECT_DOUBLE_EQ(source->info().period_s, 2 * open_scan_source(one)->info().period_s);  // of the first sensor
   expect_same_sweep(source->next().value(), sweeps[0]);
@@ -262,7 +252,7 @@ std::size_t read_all(const fs::path& file) {
   std::size_t sweeps = 0;
   for (std::size_t errors = 0; errors < 100;) {
     bool more = true;
-    if (!test::reads_or_refuses([&] { more = source->next().has_value(); })) {
+    if (!reads_or_refuses([&] { more = source->next().has_value(); })) {
       ++errors;
       continue;
     }
@@ -287,13 +277,13 @@ TEST(RecordingTest, HostileBytes) {
         if (entry.path().filename() != "metadata.yaml") file = entry.path();
       }
     }
-    const std::string whole = test::slurp(file);
+    const std::string whole = slurp(file);
     for (int round = 0; round < 150; ++round) {
-      std::ofstream(file, std::ios::binary) << test::damaged(whole, round, round % 5, random);
-      test::reads_or_refuses([&] { EXPECT_LE(read_all(path), 100U); });
+      std::ofstream(file, std::ios::binary) << damaged(whole, round, round % 5, random);
+      reads_or_refuses([&] { EXPECT_LE(read_all(path), 100U); });
     }
   }
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

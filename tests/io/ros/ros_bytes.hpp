@@ -59,20 +59,27 @@ struct CloudMessage {
   bool big_endian = false;
 };
 
+/// The fields of std_msgs/Header.
+inline void put_header(Bytes& bytes, bool ros1, std::int64_t stamp_ns, const std::string& frame_id) {
+  if (ros1) bytes.put(std::uint32_t{7});
+  bytes.put(static_cast<std::uint32_t>(stamp_ns / 1'000'000'000));
+  bytes.put(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000)).string(frame_id);
+}
+inline std::string finished(const Bytes& bytes, bool ros1) {
+  return (ros1 ? "" : std::string("\0\1\0\0", 4)) + bytes.text;
+}
+
 inline std::string message_bytes(const CloudMessage& m, MessageEncoding encoding) {
-  const bool cdr = encoding == MessageEncoding::kCdr;
-  Bytes bytes(cdr);
-  if (!cdr) bytes.put(std::uint32_t{7});
-  bytes.put(static_cast<std::uint32_t>(m.stamp_ns / 1'000'000'000));
-  bytes.put(static_cast<std::uint32_t>(m.stamp_ns % 1'000'000'000));
-  bytes.string(m.frame_id).put(m.height).put(m.width);
-  bytes.put(static_cast<std::uint32_t>(m.fields.size()));
+  const bool ros1 = encoding == MessageEncoding::kRos1;
+  Bytes bytes(!ros1);
+  put_header(bytes, ros1, m.stamp_ns, m.frame_id);
+  bytes.put(m.height).put(m.width).put(static_cast<std::uint32_t>(m.fields.size()));
   for (const PointField& field : m.fields) {
     bytes.string(field.name).put(field.offset).put(field.datatype).put(field.count);
   }
   bytes.put(static_cast<std::uint8_t>(m.big_endian)).put(m.point_step).put(m.row_step);
   bytes.sequence(m.data).put(std::uint8_t{0});
-  return (cdr ? std::string("\0\1\0\0", 4) : "") + bytes.text;
+  return finished(bytes, ros1);
 }
 
 /// x y z intensity time ring of a sweep, in points of 24 bytes (the ring is followed by two of padding).

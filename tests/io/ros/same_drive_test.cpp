@@ -5,10 +5,9 @@
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
 
-using test::TempDir;
 namespace fs = std::filesystem;
 
 std::vector<Sweep> sweeps_since_epoch() {
@@ -39,7 +38,7 @@ void expect_equal(const std::vector<SE3>& poses, const std::vector<SE3>& expecte
 }
 
 std::string bin_with_time(const Sweep& sweep) {
-  test::Bytes bytes;
+  Bytes bytes;
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) bytes.put(sweep.points[i][axis]);
     bytes.put(sweep.intensities[i]).put(sweep.times_s[i]);
@@ -68,18 +67,17 @@ TEST(SameDriveTest, EveryFormatGivesTheSameTrajectory) {
   expect_equal(trajectory(folder / "ply"), expected);
   expect_equal(trajectory(folder / "bin", with_time), expected);
 
-  const auto ros2 = test::recorded(sweeps, MessageEncoding::kCdr);
-  const test::Topics topics{{"/points", test::kRos2Type}};
-  expect_equal(trajectory(folder.write("d.mcap", test::mcap_bytes(topics, ros2, {"zstd", 2, true}))), expected);
-  test::write_db3(folder.write("rosbag2/d_0.db3", ""), topics, ros2);
-  folder.write("rosbag2/metadata.yaml", test::metadata_yaml({"d_0.db3"}, "sqlite3"));
+  const auto ros2 = recorded(sweeps, MessageEncoding::kCdr);
+  const Topics topics{{"/points", kRos2Type}};
+  expect_equal(trajectory(folder.write("d.mcap", mcap_bytes(topics, ros2, {"zstd", 2, true}))), expected);
+  write_db3(folder.write("rosbag2/d_0.db3", ""), topics, ros2);
+  folder.write("rosbag2/metadata.yaml", metadata_yaml({"d_0.db3"}, "sqlite3"));
   expect_equal(trajectory(folder / "rosbag2"), expected);
 #ifdef RILO_HAS_ROSBAG
-  test::write_bag(folder / "d.bag", {{"/points", test::kRos1Type}}, test::recorded(sweeps, MessageEncoding::kRos1),
-                  "lz4");
+  write_bag(folder / "d.bag", {{"/points", kRos1Type}}, recorded(sweeps, MessageEncoding::kRos1), "lz4");
   expect_equal(trajectory(folder / "d.bag"), expected);
 #endif
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -47,14 +47,4 @@ std::vector<std::filesystem::path> in_every_container(const TempDir& folder, con
   return paths;
 }
 
-/// The fields of std_msgs/Header.
-inline void put_header(Bytes& bytes, bool ros1, std::int64_t stamp_ns, const std::string& frame_id) {
-  if (ros1) bytes.put(std::uint32_t{7});
-  bytes.put(static_cast<std::uint32_t>(stamp_ns / 1'000'000'000));
-  bytes.put(static_cast<std::uint32_t>(stamp_ns % 1'000'000'000)).string(frame_id);
-}
-inline std::string finished(const Bytes& bytes, bool ros1) {
-  return (ros1 ? "" : std::string("\0\1\0\0", 4)) + bytes.text;
-}
-
 }  // namespace rilo::test

@@ -10,11 +10,8 @@
 #include "io/io_test_util.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::expect_io_error;
-using test::TempDir;
 
 SweepResult turned_left(std::int64_t stamp_ns) {
   SweepResult result;
@@ -48,8 +45,8 @@ TEST(TrajectoryBagTest, OdometryAndTransformsOfEverySweep) {
   names.lidar_frame = "os_sensor";
   const std::vector<SweepResult> results = {turned_left(1'700'000'000'123'456'789),
                                             turned_left(1'700'000'000'223'456'789)};
-  write_bag(folder / "run.bag", results, names);
-  EXPECT_EQ(test::files_in(folder.path()), 1U);
+  rilo::write_bag(folder / "run.bag", results, names);
+  EXPECT_EQ(files_in(folder.path()), 1U);
   rosbag::Bag bag((folder / "run.bag").string());
 
   rosbag::View odometry(bag, rosbag::TopicQuery("/odometry"));
@@ -92,7 +89,7 @@ TEST(TrajectoryBagTest, OdometryAndTransformsOfEverySweep) {
 TEST(TrajectoryBagTest, StampsThatRosDoesNotKnow) {
   const TempDir folder;
   const std::vector<SweepResult> results = {turned_left(-5), turned_left(0), turned_left(std::int64_t{1} << 62)};
-  write_bag(folder / "run.bag", results);
+  rilo::write_bag(folder / "run.bag", results);
   rosbag::Bag bag((folder / "run.bag").string());
   rosbag::View odometry(bag, rosbag::TopicQuery("/odometry"));
   std::vector<std::uint32_t> seconds;
@@ -104,11 +101,11 @@ TEST(TrajectoryBagTest, StampsThatRosDoesNotKnow) {
 
 TEST(TrajectoryBagTest, NoneAndNowhere) {
   const TempDir folder;
-  write_bag(folder / "empty.bag", {});
+  rilo::write_bag(folder / "empty.bag", {});
   rosbag::Bag bag((folder / "empty.bag").string());
   EXPECT_EQ(rosbag::View(bag).size(), 0U);
-  expect_io_error([&] { write_bag(folder / "missing" / "run.bag", {}); }, {"missing"});
+  expect_io_error([&] { rilo::write_bag(folder / "missing" / "run.bag", {}); }, {"missing"});
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

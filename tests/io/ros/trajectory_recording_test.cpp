@@ -9,11 +9,8 @@
 #include "io/ros/recording.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
-namespace rilo {
+namespace rilo::test {
 namespace {
-
-using test::expect_io_error;
-using test::TempDir;
 
 constexpr std::int64_t kFirstStamp = 1'700'000'000'123'456'789;
 
@@ -172,4 +169,4 @@ TEST(TrajectoryRecordingTest, ReadByMcapCore) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

@@ -1,0 +1,138 @@
+#include "io/clouds/ply_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "io/text.hpp"
+#include "rilo/io/io_error.hpp"
+
+namespace rilo::detail {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, ScalarType>, 18> kTypeNames{{{"char", ScalarType::kInt8},
+                                                                              {"int8", ScalarType::kInt8},
+                                                                              {"uchar", ScalarType::kUint8},
+                                                                              {"uint8", ScalarType::kUint8},
+                                                                              {"short", ScalarType::kInt16},
+                                                                              {"int16", ScalarType::kInt16},
+                                                                              {"ushort", ScalarType::kUint16},
+                                                                              {"uint16", ScalarType::kUint16},
+                                                                              {"int", ScalarType::kInt32},
+                                                                              {"int32", ScalarType::kInt32},
+                                                                              {"uint", ScalarType::kUint32},
+                                                                              {"uint32", ScalarType::kUint32},
+                                                                              {"int64", ScalarType::kInt64},
+                                                                              {"uint64", ScalarType::kUint64},
+                                                                              {"float", ScalarType::kFloat32},
+                                                                              {"float32", ScalarType::kFloat32},
+                                                                              {"double", ScalarType::kFloat64},
+                                                                              {"float64", ScalarType::kFloat64}}};
+
+class PlyHeaderParser {
+ public:
+  PlyHeaderParser(const std::filesystem::path& file, std::string_view text) : file_(file), lines_(text) {}
+
+  PlyHeader parse() {
+    const auto magic = lines_.next();
+    if (!magic || trimmed(*magic) != "ply") fail(magic ? in_quotes(*magic) : "an empty file", "ply in the first line");
+    while (const auto line = lines_.next()) {
+      const std::vector<std::string_view> words = words_of(*line);
+      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words[0] == "end_header") return finished();
+      take(words);
+    }
+    fail("the header ends without end_header", "end_header");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
+    throw IoError({file_, at_line(lines_.number()), found, expected, "Write the file again as PLY 1.0"});
+  }
+
+  void take(const std::vector<std::string_view>& words) {
+    if (words[0] == "format") {
+      take_format(words);
+    } else if (words[0] == "element") {
+      take_element(words);
+    } else if (words[0] == "property") {
+      take_property(words);
+    } else {
+      fail(in_quotes(words[0]), "format, comment, element, property or end_header");
+    }
+  }
+
+  void take_format(const std::vector<std::string_view>& words) {
+    const std::string_view name = words.size() == 3 ? words[1] : std::string_view();
+    if (name == "ascii") {
+      header_.encoding = PlyEncoding::kAscii;
+    } else if (name == "binary_little_endian") {
+      header_.encoding = PlyEncoding::kBinaryLittleEndian;
+    } else if (name == "binary_big_endian") {
+      header_.encoding = PlyEncoding::kBinaryBigEndian;
+    } else {
+      fail("format " + in_quotes(name), "format ascii, binary_little_endian or binary_big_endian, and 1.0");
+    }
+    has_format_ = true;
+  }
+
+  void take_element(const std::vector<std::string_view>& words) {
+    const auto count = words.size() == 3 ? parse_unsigned(words[2]) : std::nullopt;
+    if (!count) fail("an element line without a count", "element NAME COUNT");
+    header_.elements.push_back({std::string(words[1]), *count, {}});
+  }
+
+  void take_property(const std::vector<std::string_view>& words) {
+    if (header_.elements.empty()) fail("a property before the first element", "element NAME COUNT");
+    PlyProperty property;
+    if (words.size() == 5 && words[1] == "list") {
+      property = {std::string(words[4]), type_of(words[3]), type_of(words[2])};
+      if (is_floating(*property.list_count)) fail("a list whose length is " + in_quotes(words[2]), "an integer type");
+    } else if (words.size() == 3) {
+      property = {std::string(words[2]), type_of(words[1]), std::nullopt};
+    } else {
+      fail("a property line of " + std::to_string(words.size()) + " words",
+           "property TYPE NAME, or property list TYPE TYPE NAME");
+    }
+    header_.elements.back().properties.push_back(property);
+  }
+
+  ScalarType type_of(std::string_view name) const {
+    const auto found =
+        std::find_if(kTypeNames.begin(), kTypeNames.end(), [&](const auto& row) { return row.first == name; });
+    if (found == kTypeNames.end())
+      fail("the type " + in_quotes(name), "char, uchar, short, ushort, int, uint, float or double");
+    return found->second;
+  }
+
+  PlyHeader finished() {
+    if (!has_format_) fail("a header without a format line", "format ascii, binary_little_endian or binary_big_endian");
+    header_.body_offset = lines_.offset();
+    header_.lines = lines_.number();
+    return header_;
+  }
+
+  const std::filesystem::path& file_;
+  LineScanner lines_;
+  PlyHeader header_;
+  bool has_format_ = false;
+};
+
+}  // namespace
+
+bool PlyElement::has_list() const {
+  return std::any_of(properties.begin(), properties.end(),
+                     [](const PlyProperty& p) { return p.list_count.has_value(); });
+}
+
+std::size_t PlyElement::least_bytes() const {
+  std::size_t bytes = 0;
+  for (const PlyProperty& property : properties) bytes += size_of(property.list_count.value_or(property.type));
+  return bytes;
+}
+
+PlyHeader parse_ply_header(const std::filesystem::path& file, std::string_view text) {
+  return PlyHeaderParser(file, text).parse();
+}
+
+}  // namespace rilo::detail

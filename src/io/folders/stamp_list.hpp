@@ -1,0 +1,23 @@
+// Files with one stamp per line.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace rilo::detail {
+
+/// Whole stamps as data sets write them: 19 digits are ns, 16 are µs, decimals with 9 digits or more before the point
+/// are seconds.
+std::optional<std::int64_t> parse_long_stamp(std::string_view text);
+
+/// Dates. Blank lines are skipped. @throws IoError with the line.
+std::vector<std::int64_t> read_dates(const std::filesystem::path& file);
+
+/// Dates, long stamps or seconds. Blank lines and lines that begin with # are skipped. @throws IoError with the
+/// line.
+std::vector<std::int64_t> read_stamp_list(const std::filesystem::path& file);
+
+}  // namespace rilo::detail

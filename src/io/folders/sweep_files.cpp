@@ -1,0 +1,149 @@
+#include "io/folders/sweep_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "io/file_bytes.hpp"
+#include "io/folder_files.hpp"
+#include "io/folders/stamp_list.hpp"
+#include "io/text.hpp"
+#include "rilo/io/io_error.hpp"
+#include "rilo/io/trajectory_files.hpp"
+
+namespace rilo::detail {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array<const char*, 3> kFormats{"bin", "pcd", "ply"};
+
+// Without extensions; nuScenes has NAME.pcd.bin.
+std::string name_of(const fs::path& file) {
+  const fs::path stem = file.stem();
+  return (sweep_format(stem).empty() ? stem : stem.stem()).string();
+}
+
+// Decimal seconds by their value: natural order takes their decimals for whole numbers, and these are as long as
+// whoever wrote them found necessary.
+bool sort_by_seconds(std::vector<fs::path>& files) {
+  std::vector<std::pair<std::int64_t, fs::path>> stamped;
+  for (const fs::path& file : files) {
+    const std::string name = name_of(file);
+    const auto stamp = parse_stamp(name);
+    if (!stamp || name.find_first_not_of("0123456789.") != std::string::npos) return false;
+    stamped.emplace_back(*stamp, file);
+  }
+  std::sort(stamped.begin(), stamped.end());
+  std::transform(stamped.begin(), stamped.end(), files.begin(), [](const auto& one) { return one.second; });
+  return true;
+}
+
+struct FolderContent {
+  std::array<std::vector<fs::path>, kFormats.size()> sweeps;
+  std::size_t others = 0;
+  std::vector<std::string> folders;
+};
+
+FolderContent content_of(const fs::path& folder) {
+  FolderContent content;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->is_directory(ignored)) {
+      content.folders.push_back(entry->path().filename().string());
+      continue;
+    }
+    if (is_hidden(entry->path())) continue;
+    const auto kind = std::find(kFormats.begin(), kFormats.end(), sweep_format(entry->path()));
+    if (kind == kFormats.end()) {
+      ++content.others;
+    } else {
+      content.sweeps[static_cast<std::size_t>(kind - kFormats.begin())].push_back(entry->path());
+    }
+  }
+  if (error) {
+    throw IoError(
+        {folder, "", "the folder cannot be listed: " + error.message(), "a readable folder", "Check the path"});
+  }
+  return content;
+}
+
+// "data/ has 108 .bin" for the first subfolder (also two levels down) that holds sweeps.
+std::optional<std::string> subfolder_with_sweeps(const fs::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    for (const char* below : {"", "data"}) {
+      const std::string place = *below == 0 ? name : name + "/" + below;
+      if (!is_folder(folder / place)) continue;
+      try {
+        const SweepFiles inside = find_sweep_files(folder / place, false);
+        return place + "/ has " + std::to_string(inside.files.size()) + " ." + inside.format;
+      } catch (const IoError&) {
+        // Nothing there either, or more than one kind.
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+[[noreturn]] void reject_without_sweeps(const fs::path& folder, FolderContent content, bool look_below) {
+  std::sort(content.folders.begin(), content.folders.end(), natural_less);
+  std::string found = "no sweeps here (.bin, .pcd, .ply)";
+  const auto below = look_below ? subfolder_with_sweeps(folder, content.folders) : std::nullopt;
+  if (below) {
+    throw IoError({folder, "", found + "; subfolder " + *below,
+                   "sweeps, or a KITTI sequence folder with velodyne/ in it", "Give that subfolder"});
+  }
+  found += ", " + counted(content.others, "other file");
+  constexpr std::size_t kMostNames = 5;
+  for (std::size_t i = 0; i < std::min(content.folders.size(), kMostNames); ++i) {
+    found += (i == 0 ? " and the folders " : ", ") + content.folders[i];
+  }
+  if (content.folders.size() > kMostNames) found += ", …";
+  const std::vector<fs::path> captures = files_with(folder, {".pcap", ".pcapng"});
+  throw IoError({folder, "", found, "sweeps, or a KITTI sequence folder with velodyne/ in it",
+                 captures.empty() ? "Give the folder that holds the sweeps themselves"
+                                  : "Give the recording of packets itself: " + captures[0].string()});
+}
+
+}  // namespace
+
+std::string sweep_format(const fs::path& file) {
+  const std::string extension = lower_case(file.extension().string());
+  for (const char* format : kFormats) {
+    if (extension == std::string(".") + format) return format;
+  }
+  return {};
+}
+
+SweepFiles find_sweep_files(const fs::path& folder, bool look_below) {
+  FolderContent content = content_of(folder);
+  std::string counts;
+  std::size_t kinds = 0;
+  SweepFiles found;
+  for (std::size_t i = 0; i < kFormats.size(); ++i) {
+    if (content.sweeps[i].empty()) continue;
+    counts += (kinds++ == 0 ? "" : " and ") + std::to_string(content.sweeps[i].size()) + " ." + kFormats[i];
+    found = {kFormats[i], std::move(content.sweeps[i])};
+  }
+  if (kinds == 0) reject_without_sweeps(folder, std::move(content), look_below);
+  if (kinds > 1) {
+    throw IoError(
+        {folder, "", counts + " files", "sweeps of one kind", "Move the other files into a folder of their own"});
+  }
+  if (!sort_by_seconds(found.files)) sort_naturally(found.files);
+  return found;
+}
+
+std::vector<std::int64_t> stamps_from_names(const std::vector<fs::path>& files) {
+  std::vector<std::int64_t> stamps;
+  for (const fs::path& file : files) {
+    const auto stamp = parse_long_stamp(name_of(file));
+    if (!stamp || (!stamps.empty() && *stamp <= stamps.back())) return {};
+    stamps.push_back(*stamp);
+  }
+  return stamps;
+}
+
+}  // namespace rilo::detail

@@ -1,0 +1,86 @@
+#include "io/times/sweep_timing.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "io/stamp_difference.hpp"
+#include "io/times/time_field.hpp"
+
+namespace rilo::detail {
+
+SweepTiming::SweepTiming(const SourceOptions& options, const PointTimeHints& hints, double period_s)
+    : from_(options.point_times),
+      spin_(options.spin_direction),
+      period_s_(period_s),
+      infers_unit_(hints.unit == PointTimeUnit::kInfer),
+      stamps_in_field_(hints.reference == PointTimeReference::kEpoch),
+      decoder_(hints) {
+  if (from_ != PointTimes::kAzimuth) return;
+  has_times_ = true;
+  description_ =
+      "azimuth, " + std::string(to_string(options.spin_direction)) + ", period " + std::to_string(period_s) + " s";
+}
+
+void SweepTiming::promise(const std::optional<std::string>& times, const std::vector<RawTimes>& ends) {
+  if (from_ != PointTimes::kAuto) return;
+  decoder_.learn(ends);
+  // Whoever tells the unit wants what is there, but zeros tell nothing.
+  const auto tells_nothing = [this](const RawTimes& raw) {
+    const bool floating = is_floating(raw.type);
+    const bool same = floating ? raw.floats.front() == raw.floats.back() : raw.integers.front() == raw.integers.back();
+    return same && (infers_unit_ || (floating ? raw.floats.front() == 0 : raw.integers.front() == 0));
+  };
+  constant_ = !stamps_in_field_ && !ends.empty() && std::all_of(ends.begin(), ends.end(), tells_nothing);
+  has_times_ = times.has_value() && !constant_;
+  description_ = has_times_ ? *times : "none";
+  if (constant_) constant_field_ = ends.front().field;
+}
+
+void SweepTiming::apply(const std::optional<RawTimes>& times, const std::filesystem::path& file, double forward_after_s,
+                        Sweep& sweep) {
+  if (from_ == PointTimes::kNone || from_ == PointTimes::kOrder) return;  // see with_order_times()
+  if (from_ == PointTimes::kAzimuth) {
+    sweep.stamp_ns += nanoseconds(forward_after_s);
+    sweep.times_s = azimuth_times(sweep.points, period_s_, spin_);
+    return;
+  }
+  has_times_ = times.has_value();
+  if (!times) {
+    description_ = "none";
+    return;
+  }
+  if (constant_) {
+    const TimeField field(*times, file, sweep.points);
+    constant_ = field.empty() || field.bulk().constant();
+    has_times_ = !constant_;
+    if (constant_) return;
+  }
+  decoder_.decode(*times, file, sweep);
+  if (!decoder_.description().empty()) description_ = decoder_.description();
+}
+
+std::vector<std::string> SweepTiming::warnings() const {
+  std::vector<std::string> warnings;
+  if (!constant_field_.empty()) {
+    warnings.push_back("field " + constant_field_ +
+                       " is the same for all points of a sweep: taken as points without times");
+  }
+  constexpr double kSlowestTurn = 0.25;  // s; 5 Hz and some jitter
+  const auto& convention = decoder_.convention();
+  if (infers_unit_ && convention && convention->unit == PointTimeUnit::kFraction && period_s_ > kSlowestTurn) {
+    warnings.push_back(fmt::format(
+        "point times from 0 to 1 are taken as fractions of {:.3g} s, the step of the stamps; where sweeps were "
+        "left out, a sweep takes less: write the times in seconds",
+        period_s_));
+  }
+  if (!decoder_.warning().empty()) warnings.push_back(decoder_.warning());
+  return warnings;
+}
+
+bool SweepTiming::sets_stamps() const {
+  const auto& convention = decoder_.convention();
+  return convention && convention->reference == PointTimeReference::kEpoch;
+}
+
+}  // namespace rilo::detail

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "comparison_figures.hpp"
 #include "evaluation/percentile.hpp"
 #include "html_text.hpp"
 #include "rilo/evaluation/pose_error.hpp"
@@ -29,7 +30,19 @@ void add_accuracy(const Evaluation& e, std::vector<Figure>& figures) {
   figures.push_back(
       {"APE rmse", number(e.ape.translation_m.rmse, 3), "m",
        fmt::format("after SE(3) alignment; unaligned {} m", number(e.ape_unaligned.translation_m.rmse, 3))});
-  figures.push_back({"End error", number(e.end_error_m, 2), "m", number(e.end_error_pct, 2) + " % of the path"});
+  figures.push_back({"End error", number(e.end_error_m, 2), "m",
+                     e.path_m > 0.0 ? number(e.end_error_pct, 2) + " % of the path" : "the true path has no length"});
+}
+
+/// What can no longer be computed.
+void add_recorded(const RunReport& run, std::vector<Figure>& figures) {
+  for (const ComparisonFigure& figure : comparison_figures()) {
+    const std::optional<double> value = value_of(run, figure);
+    if (value && !figure.of(run)) {
+      figures.push_back(
+          {figure.what.title, number(value, figure.what.digits), figure.what.unit, "as the run recorded it"});
+    }
+  }
 }
 
 void add_speed(const RunReport& run, std::vector<Figure>& figures) {
@@ -62,6 +75,7 @@ TimingFigures timing_of(const std::vector<SweepResult>& sweeps) {
 std::vector<Figure> headline_figures(const RunReport& run) {
   std::vector<Figure> figures;
   if (run.evaluation) add_accuracy(*run.evaluation, figures);
+  add_recorded(run, figures);
   add_speed(run, figures);
   if (run.peak_rss_mb > 0.0) {
     figures.push_back({"Peak memory", number(run.peak_rss_mb, 0), "MB", "resident set of the whole process"});

@@ -155,7 +155,10 @@ const comparisonCharts = {
         i = j;
       }
     });
-    for (const t of ticks(0, n, Math.max(2, w / 90))) svg += `<text x="${px(sx(t.v))}" y="${height - 18}" text-anchor="${t.v === 0 ? 'start' : 'middle'}">${t.text}</text>`;
+    for (const t of ticks(0, n, Math.max(2, w / 90), 1)) {
+      const anchor = t.v === 0 ? 'start' : sx(t.v) > width - 24 ? 'end' : 'middle';  // within the picture
+      svg += `<text x="${px(sx(t.v))}" y="${height - 18}" text-anchor="${anchor}">${t.text}</text>`;
+    }
     svg += `<text x="${px(left + w / 2)}" y="${height - 3}" text-anchor="middle">sweep</text>`;
     const head = legend([...seenNames].map((name) => ({ name: (name || 'unknown').replace(/_/g, ' '), color: statusColor(name), kind: 'box' })));
     const view = mount(host, head, svg, width, height);

@@ -92,7 +92,7 @@ const charts = {
     const counts = new Array(last + 1).fill(0);
     for (const v of s.total) if (finite(v)) ++counts[Math.min(Math.floor(v / width) - first, last)];
     const beyond = s.total.filter((v) => finite(v) && v >= (first + last + 1) * width).length;
-    const a = axes(host, { height: 250, xlabel: 'ms per sweep', xrange: [first * width, (first + last + 1) * width], yrange: [0, range(counts)[1] * 1.06] });
+    const a = axes(host, { height: 250, counts: true, xlabel: 'ms per sweep', xrange: [first * width, (first + last + 1) * width], yrange: [0, range(counts)[1] * 1.06] });
     let svg = a.svg;
     counts.forEach((c, b) => {
       const x = a.sx((first + b) * width), x2 = a.sx((first + b + 1) * width), color = b === last && beyond ? 'var(--bad)' : 'var(--a)';
@@ -150,7 +150,7 @@ const charts = {
     host.innerHTML = rows.map(([title]) => `<p class="striptitle">${title}</p><div class="chart"></div>`).join('');
     const hosts = host.querySelectorAll('.chart');
     rows.forEach(([name, y, color, digits, unit], k) => curves(run, hosts[k], {
-      height: k === rows.length - 1 ? 132 : 112, x: run.sweep, whole: true, zero: true, legend: '', xlabel: k === rows.length - 1 ? 'sweep' : '',
+      height: k === rows.length - 1 ? 132 : 112, x: run.sweep, whole: true, counts: name === 'iterations', zero: true, legend: '', xlabel: k === rows.length - 1 ? 'sweep' : '',
       xname: (i) => `sweep ${i}`, linked: true, series: [{ name: name.replace(' (m)', ''), y, color, digits, unit }],
     }));
   },

@@ -34,6 +34,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kShareOfWriting = 20;
 
 std::string prepared(const std::string& out) {
+  if (!out.empty()) check_results_folder(out);
   OutputRequest outputs;
   outputs.out = out;
   prepare_outputs(outputs);

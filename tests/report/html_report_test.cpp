@@ -67,6 +67,15 @@ TEST(HtmlReport, DataOfTheCharts) {
 }
 
 // A share of 0 would say that all was wrong where nothing was tried.
+TEST(HtmlReport, SweepsKeepTheirPlacesInTheData) {
+  RunReport run = drive(3);
+  EXPECT_TRUE(data_of(page(run))[0]["numbers"].is_null());
+  run.numbers = {100, 101, 103};
+  EXPECT_EQ(data_of(page(run))[0]["numbers"], nlohmann::json({100, 101, 103}));
+  run.numbers.pop_back();
+  EXPECT_THROW(page(run), std::invalid_argument);
+}
+
 TEST(HtmlReport, WithoutARegistrationThereAreNoInliers) {
   RunReport run = drive(10);
   run.sweeps[0].stats.iterations = 0;

@@ -64,7 +64,6 @@ chosen=()
 for argument in "$@"; do
   case "$argument" in
     --stop) stop=true ;;
-    -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
     -*) die "unknown option '$argument'; known: --stop" ;;
     *)
       [[ " ${phases[*]} sanitize-short wheel " == *" $argument "* ]] ||

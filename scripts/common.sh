@@ -1,4 +1,4 @@
-# Sourced by every script here: strict mode, the project's root as working folder, and the number of parallel jobs.
+# Sourced by every script here: strict mode, the project's root as working folder, --help, and the number of parallel jobs.
 # shellcheck shell=bash
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -11,6 +11,14 @@ die() {
   echo "${0##*/}: $*" >&2
   exit 1
 }
+
+# The comment at the head of the script.
+print_help() {
+  sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'
+}
+case "${1-}" in
+  -h | --help) print_help && exit 0 ;;
+esac
 
 # print_sources0: our C++ files, NUL-separated.
 print_sources0() {

@@ -13,7 +13,6 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 case "${1-}" in
   '') ;;
-  -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
   *) die "unknown argument '$1'; it takes none but --help" ;;
 esac
 

@@ -9,7 +9,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 case "${1:-60}" in
-  *[!0-9]* | '') sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' scripts/fuzz.sh | grep -v '^shellcheck'; exit 2 ;;
+  *[!0-9]* | '') print_help; exit 2 ;;
 esac
 seconds="${1:-60}"
 shift || true

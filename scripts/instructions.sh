@@ -13,7 +13,6 @@ renew=false
 case "${1-}" in
   '') ;;
   --renew) renew=true ;;
-  -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
   *) die "unknown option '$1'; known: --renew" ;;
 esac
 

@@ -11,7 +11,6 @@ try=false
 case "${1-}" in
   '') ;;
   --try) try=true ;;
-  -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
   *) die "unknown option '$1'; known: --try" ;;
 esac
 

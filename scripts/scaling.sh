@@ -7,7 +7,7 @@ caller="$PWD"
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 case "${1-}" in
-  '' | -*) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 2 ;;
+  '' | -*) print_help; exit 2 ;;
 esac
 out="$1"
 shift

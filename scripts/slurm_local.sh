@@ -11,7 +11,6 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 PATH="$PATH:/usr/sbin:/sbin"
 
-usage() { sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" | grep -v '^shellcheck'; }
 have_slurm() { command -v slurmctld && command -v slurmd && command -v munged && command -v sbatch; } >/dev/null
 
 free_port() {
@@ -126,6 +125,5 @@ case "${1:-}" in
     [ $# -eq 2 ] || die "$1 needs a folder; see scripts/slurm_local.sh --help"
     "$1" "$2"
     ;;
-  -h | --help) usage ;;
   *) die "expected start, stop or check; see scripts/slurm_local.sh --help" ;;
 esac

@@ -11,7 +11,6 @@ setup=()
 arguments=()
 for argument in "$@"; do
   case "$argument" in
-    -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
     --all) setup=(--all) ;;
     *) arguments+=("$argument") ;;
   esac

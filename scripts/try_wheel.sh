@@ -7,7 +7,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 case "${1-}" in
-  '' | -*) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
+  '' | -*) print_help; exit 0 ;;
 esac
 wheel="$1"
 python="${2:-/usr/bin/python3}"

@@ -19,7 +19,6 @@ for argument in "$@"; do
     --try) try=true ;;
     --sdist) sdist=true ;;
     --all) all=true ;;
-    -h | --help) sed -n '2,/^# shellcheck/s/^# \{0,1\}//p' "scripts/${0##*/}" | grep -v '^shellcheck'; exit 0 ;;
     -*) die "unknown option '$argument'; known: --all --try --sdist" ;;
     *) pythons+=("$argument") ;;
   esac

@@ -24,9 +24,12 @@ std::string segments_of(const KittiError& kitti) {
 }
 
 void add_accuracy(const Evaluation& e, std::vector<Figure>& figures) {
-  figures.push_back(
-      {"t_rel", number(e.kitti.t_rel_pct(), 3), "%", "translation drift, mean of " + segments_of(e.kitti)});
-  figures.push_back({"r_rel", number(e.kitti.r_rel_deg_100m(), 3), "°/100 m", "rotation drift over the same segments"});
+  if (e.path_m >= kLeastPathM) {
+    figures.push_back(
+        {"t_rel", number(e.kitti.t_rel_pct(), 3), "%", "translation drift, mean of " + segments_of(e.kitti)});
+    figures.push_back(
+        {"r_rel", number(e.kitti.r_rel_deg_100m(), 3), "°/100 m", "rotation drift over the same segments"});
+  }
   figures.push_back(
       {"APE rmse", number(e.ape.translation_m.rmse, 3), "m",
        fmt::format("after SE(3) alignment; unaligned {} m", number(e.ape_unaligned.translation_m.rmse, 3))});

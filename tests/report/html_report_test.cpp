@@ -120,6 +120,11 @@ TEST(HtmlReport, WithoutTruth) {
   EXPECT_TRUE(data_of(html)[0]["errors"].is_null());
 }
 
+TEST(HtmlReport, TheDriftOfAFewMetresIsNoHeadline) {
+  EXPECT_THAT(page(drive(12, 1.2)), HasSubstr("<div class=\"label\">t_rel</div>"));
+  EXPECT_THAT(page(drive(3, 1.2)), Not(HasSubstr("<div class=\"label\">t_rel</div>")));
+}
+
 TEST(HtmlReport, RecordedFiguresStandInForLostTruth) {
   RunReport run = drive(50);
   run.truth.clear();

@@ -62,10 +62,7 @@ void check_against(const fs::path& output, const std::vector<fs::path>& inputs) 
 }
 
 void check_folder(const fs::path& folder, const fs::path& data, const std::vector<fs::path>& files) {
-  // Results among data are read as data, or instead of them.
-  if (holds_sweeps_of(folder, data) || holds_other_data(folder)) {
-    refuse(folder, "holds data, which could not be told from results", "choose a folder of its own as --out");
-  }
+  check_apart(folder, data);
   if (has_a_run(folder)) {
     for (const char* name : kMaps) check_map(folder / name);
     return;
@@ -97,6 +94,12 @@ void check_outputs(const OutputRequest& outputs, const RunRequest& run, const fs
   if (!outputs.map.empty() && same(map_folder, outputs.out)) files.push_back(map);
   for (const fs::path& file : files) check_against(file, inputs);
   check_folder(outputs.out, run.data, files);
+}
+
+void check_apart(const fs::path& folder, const fs::path& data) {
+  if (holds_sweeps_of(folder, data) || holds_other_data(folder)) {
+    refuse(folder, "holds data, which could not be told from results", "choose a folder of its own as --out");
+  }
 }
 
 void check_replaced(const fs::path& file, const std::string& mark, const std::string& what, const std::string& option) {

@@ -245,6 +245,12 @@ TEST(BenchCommand, ReplacesItsOwnResultsAndNothingElse) {
     rilo_fails(4, {"bench", plan, "--out", mine.parent_path()}, {name, "would be replaced", "choose another --out"});
     EXPECT_EQ(slurp(mine), "mine");
   }
+  const fs::path drive = copy_of_drive(folder);
+  const auto of_drive = folder.write("drive.yaml", "sequences:\n" + sequence("one", drive));
+  for (const fs::path& data : {drive, drive / "velodyne"}) {
+    rilo_fails(4, {"bench", of_drive, "--out", data}, {"holds data", "a folder of its own"});
+  }
+  EXPECT_FALSE(fs::exists(drive / "results.json"));
   const fs::path out = folder / "out";
   const std::vector<std::string> command = {"bench", plan, "--out", out, "--quiet", "--count", "6"};
   rilo_succeeds(command);

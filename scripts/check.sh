@@ -64,7 +64,6 @@ chosen=()
 for argument in "$@"; do
   case "$argument" in
     --stop) stop=true ;;
-    -h | --help) print_help; exit 0 ;;
     -*) die "unknown option '$argument'; known: --stop" ;;
     *)
       [[ " ${phases[*]} sanitize-short wheel " == *" $argument "* ]] ||

@@ -1,4 +1,4 @@
-# Sourced by every script here: strict mode, the project's root as working folder, and the number of parallel jobs.
+# Sourced by every script here: strict mode, the project's root as working folder, --help, and the number of parallel jobs.
 # shellcheck shell=bash
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -16,6 +16,10 @@ die() {
   echo "${0##*/}: $*" >&2
   exit 1
 }
+
+case "${1-}" in
+  -h | --help) print_help && exit 0 ;;
+esac
 
 # print_sources0: our C++ files, NUL-separated.
 print_sources0() {

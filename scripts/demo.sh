@@ -13,7 +13,6 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 case "${1-}" in
   '') ;;
-  -h | --help) print_help; exit 0 ;;
   *) die "unknown argument '$1'; it takes none but --help" ;;
 esac
 

@@ -13,7 +13,6 @@ renew=false
 case "${1-}" in
   '') ;;
   --renew) renew=true ;;
-  -h | --help) print_help; exit 0 ;;
   *) die "unknown option '$1'; known: --renew" ;;
 esac
 

@@ -11,7 +11,6 @@ try=false
 case "${1-}" in
   '') ;;
   --try) try=true ;;
-  -h | --help) print_help; exit 0 ;;
   *) die "unknown option '$1'; known: --try" ;;
 esac
 

@@ -68,7 +68,6 @@ for argument in "$@"; do
     --witnesses) with_witnesses=true ;;
     --arm) with_arm=true ;;
     --print) print_only=true ;;
-    -h | --help) print_help; exit 0 ;;
     *) die "unknown option '$argument'; known: --minimal --all --lint --docs --bench --browser --clang --package --wheel --witnesses --arm --print" ;;
   esac
 done

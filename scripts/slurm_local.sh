@@ -125,6 +125,5 @@ case "${1:-}" in
     [ $# -eq 2 ] || die "$1 needs a folder; see scripts/slurm_local.sh --help"
     "$1" "$2"
     ;;
-  -h | --help) print_help ;;
   *) die "expected start, stop or check; see scripts/slurm_local.sh --help" ;;
 esac

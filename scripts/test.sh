@@ -11,7 +11,6 @@ setup=()
 arguments=()
 for argument in "$@"; do
   case "$argument" in
-    -h | --help) print_help; exit 0 ;;
     --all) setup=(--all) ;;
     *) arguments+=("$argument") ;;
   esac

@@ -19,7 +19,6 @@ for argument in "$@"; do
     --try) try=true ;;
     --sdist) sdist=true ;;
     --all) all=true ;;
-    -h | --help) print_help; exit 0 ;;
     -*) die "unknown option '$argument'; known: --all --try --sdist" ;;
     *) pythons+=("$argument") ;;
   esac

@@ -13,6 +13,7 @@
 #include "console/text.hpp"
 #include "io/atomic_file.hpp"
 #include "report/html_report.hpp"
+#include "results/output_check.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::cli {
@@ -69,6 +70,7 @@ int report(const ReportFlags& flags) {
   for (const std::string& word : flags.truths) truths.push_back(parse_report_truth(word));
   if (inputs.empty() && !truths.empty())
     throw RunError(RunErrorKind::kUsage, "--gt goes with runs and poses, not with rilo bench");
+  check_replaced(flags.out, "Rilo</title>", "report", "-o");
   ReportRuns runs = report_runs(inputs, truths, flags.poses);
   page.runs = std::move(runs.runs);
   page.notices = std::move(runs.notices);

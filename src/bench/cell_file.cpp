@@ -64,7 +64,7 @@ BenchCell unpacked(const nlohmann::json& json) {
   return cell;
 }
 
-CellFolder::CellFolder(const fs::path& results, bool kept) : folder_(results / "cells"), kept_(kept) {
+CellFolder::CellFolder(const fs::path& results, bool kept) : folder_(results / kCells), kept_(kept) {
   create_folder(folder_);
 }
 

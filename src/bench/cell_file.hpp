@@ -24,7 +24,9 @@ struct CellRecord {
   bool failed() const { return cells.empty() || cells.front().failed(); }
 };
 
-/// The folder `cells` of a benchmark's results. Any number of processes, on any number of machines that share it, may
+constexpr const char* kCells = "cells";
+
+/// That folder of a benchmark's results. Any number of processes, on any number of machines that share it, may
 /// write to it.
 class CellFolder {
  public:

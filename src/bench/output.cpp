@@ -1,14 +1,22 @@
 #include "bench/output.hpp"
 
+#include "bench/cell_file.hpp"
 #include "bench/paired.hpp"
 #include "bench/paper.hpp"
 #include "console/text.hpp"
 #include "io/atomic_file.hpp"
+#include "io/file_bytes.hpp"
+#include "results/output_check.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
 
 namespace {
+
+constexpr const char* kResultsJson = "results.json";
+constexpr const char* kResultsCsv = "results.csv";
+constexpr const char* kPairedCsv = "paired.csv";
+constexpr const char* kResultsMd = "results.md";
 
 std::vector<TitledTable> paper_tables(const BenchOutput& output, MeasuredColumns measured) {
   switch (output.tables) {
@@ -49,13 +57,34 @@ std::string bench_markdown(const BenchOutput& output, MeasuredColumns measured) 
   return "# " + output.bench.command_line + "\n\n" + markdown_text(all_tables(output, measured));
 }
 
+void check_results_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path store = folder / kStoreName;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(folder / kCells, ignored)) return;
+  if (detail::is_file(store)) {  // the cells were deleted, so that all are run again
+    check_replaced(store, "TABLE cells", "store of a benchmark", "--out");
+    return;
+  }
+  for (const char* name : {kResultsJson, kResultsCsv, kPairedCsv, kResultsMd}) {
+    if (detail::path_exists(folder / name)) {
+      throw RunError(RunErrorKind::kCannotWrite,
+                     (folder / name).string() +
+                         ": would be replaced, and no benchmark has left it; choose another --out, or move the file");
+    }
+  }
+}
+
 void write_results(const std::filesystem::path& folder, const BenchOutput& output, const BenchStore& store) {
   try {
-    write_atomically(folder / "results.json", json_text(results_json(output.bench)));
-    write_atomically(folder / "results.csv", bench_csv(output.bench.cells).csv());
+    write_atomically(folder / kResultsJson, json_text(results_json(output.bench)));
+    write_atomically(folder / kResultsCsv, bench_csv(output.bench.cells).csv());
     const TextTable paired = paired_csv(output.bench.cells);
-    if (!paired.rows.empty()) write_atomically(folder / "paired.csv", paired.csv());
-    write_atomically(folder / "results.md", bench_markdown(output));
+    if (paired.rows.empty()) {
+      std::filesystem::remove(folder / kPairedCsv);  // of a plan that had peers
+    } else {
+      write_atomically(folder / kPairedCsv, paired.csv());
+    }
+    write_atomically(folder / kResultsMd, bench_markdown(output));
     write_store(folder / kStoreName, store);
   } catch (const IoError& error) {
     throw RunError(RunErrorKind::kCannotWrite, error.what());

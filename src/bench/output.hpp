@@ -29,7 +29,10 @@ std::vector<TitledTable> all_tables(const BenchOutput& output, MeasuredColumns m
 /// results.md.
 std::string bench_markdown(const BenchOutput& output, MeasuredColumns measured = MeasuredColumns::kWith);
 
-/// results.json, .csv, .md and .sqlite, each whole or not at all. @throws RunError, kCannotWrite,
+/// Refuses a folder where that would replace files that no benchmark has left. @throws RunError, kCannotWrite
+void check_results_folder(const std::filesystem::path& folder);
+
+/// results.json, .csv, .md and .sqlite, each whole or not at all. @throws RunError, kCannotWrite
 void write_results(const std::filesystem::path& folder, const BenchOutput& output, const BenchStore& store);
 
 }  // namespace rilo

@@ -65,6 +65,7 @@ std::map<std::string, double> recorded_figures(const RunMetrics& metrics) {
   for (const BenchFigure& figure : bench_figures()) {
     if (const MaybeNumber& value = figure.get(metrics)) figures[figure.key] = *value;
   }
+  if (metrics.evaluation.end_error_m) figures["end_error_m"] = *metrics.evaluation.end_error_m;
   return figures;
 }
 

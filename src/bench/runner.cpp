@@ -22,6 +22,7 @@
 #include "console/progress.hpp"
 #include "console/text.hpp"
 #include "io/temporary_folder.hpp"
+#include "results/output_check.hpp"
 #include "results/run_outputs.hpp"
 
 namespace rilo {
@@ -33,7 +34,11 @@ using Clock = std::chrono::steady_clock;
 // Writing all results again after each cell may take this share of the time.
 constexpr int kShareOfWriting = 20;
 
-std::string prepared(const std::string& out) {
+std::string prepared(const std::string& out, const std::vector<BenchJob>& jobs) {
+  if (!out.empty()) {
+    check_results_folder(out);
+    for (const BenchJob& job : jobs) check_apart(out, job.sequence.path);
+  }
   OutputRequest outputs;
   outputs.out = out;
   prepare_outputs(outputs);
@@ -51,7 +56,7 @@ class BenchRunner {
   BenchRunner(const BenchOrder& order, const std::vector<BenchJob>& jobs)
       : order_(order),
         jobs_(jobs),
-        out_(prepared(order.out)),
+        out_(prepared(order.out, jobs)),
         lock_(out_),
         temporary_(order.out.empty() ? std::make_optional<detail::TemporaryFolder>("rilo-bench") : std::nullopt),
         folder_(temporary_ ? temporary_->path() : std::filesystem::path(out_), !temporary_) {

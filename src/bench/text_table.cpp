@@ -21,9 +21,10 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// Neither the end of a cell nor the beginning of an HTML element.
 std::string escaped(const std::string& text) {
   std::string result;
-  for (const char c : one_line(text)) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  for (const char c : one_line(text)) result += c == '|' || c == '<' ? std::string{'\\', c} : std::string(1, c);
   return result;
 }
 

@@ -98,6 +98,7 @@ Json map_of(const RunReport& run) {
 
 std::string chart_data(const RunReport& run) {
   Json data{{"estimate", positions(run.estimate)}, {"truth", positions(run.truth)}};
+  data["numbers"] = run.numbers.empty() ? Json(nullptr) : Json(run.numbers);
   data["errors"] = run.evaluation ? errors(run.evaluation->series) : Json(nullptr);
   data["sweeps"] = run.sweeps.empty() ? Json(nullptr) : sweeps_of(run);
   data["map"] = map_of(run);

@@ -120,7 +120,8 @@ std::string sequence_article(const std::vector<RunReport>& runs, const std::stri
   html +=
       "</header>\n<div class=\"chooser\" role=\"group\" aria-label=\"Runs shown in the charts\"></div>\n<div "
       "class=\"grid\">\n" +
-      figures_panel(runs, places) + chart_panel("bars", "full", "Side by side", "Shorter is better.") +
+      figures_panel(runs, places) +
+      (places.size() > 1 ? chart_panel("bars", "full", "Side by side", "Shorter is better.") : "") +
       chart_panel("paths", "tall", "Trajectories", "Seen from above, equal axes, metres; first poses made equal.");
   html += chart_panel("heights", "side", "Height", "z over the distance travelled.");
   html += accuracy_panels(runs, places) + effort_panels(runs, places) + "</div>\n";

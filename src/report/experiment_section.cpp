@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "experiment_table.hpp"
@@ -64,6 +66,13 @@ std::string means_panel(const ExperimentReport& experiment, const std::vector<Ex
     }
   }
   const ExperimentTable first(experiment, figures.front().key);
+  const bool any = std::any_of(rows.begin(), rows.end(), [](const FigureRow& row) {
+    return std::any_of(row.values.begin(), row.values.end(), [](const auto& value) { return value.has_value(); });
+  });
+  if (!any) {
+    return "<section class=\"panel full\"><h3>Mean of the sequences</h3><p>None: no sequence has figures of every "
+           "configuration.</p></section>\n";
+  }
   return fmt::format(
              "<section class=\"panel full\"><h3>Mean of the sequences</h3><p class=\"caption\">Over the sequences for "
              "which every configuration has the figure ({}: {} of {}); the best of each column is bold.</p>",

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "comparison_figures.hpp"
 #include "evaluation/percentile.hpp"
 #include "html_text.hpp"
 #include "rilo/evaluation/pose_error.hpp"
@@ -23,13 +24,28 @@ std::string segments_of(const KittiError& kitti) {
 }
 
 void add_accuracy(const Evaluation& e, std::vector<Figure>& figures) {
-  figures.push_back(
-      {"t_rel", number(e.kitti.t_rel_pct(), 3), "%", "translation drift, mean of " + segments_of(e.kitti)});
-  figures.push_back({"r_rel", number(e.kitti.r_rel_deg_100m(), 3), "°/100 m", "rotation drift over the same segments"});
+  if (e.path_m >= kLeastPathM) {
+    figures.push_back(
+        {"t_rel", number(e.kitti.t_rel_pct(), 3), "%", "translation drift, mean of " + segments_of(e.kitti)});
+    figures.push_back(
+        {"r_rel", number(e.kitti.r_rel_deg_100m(), 3), "°/100 m", "rotation drift over the same segments"});
+  }
   figures.push_back(
       {"APE rmse", number(e.ape.translation_m.rmse, 3), "m",
        fmt::format("after SE(3) alignment; unaligned {} m", number(e.ape_unaligned.translation_m.rmse, 3))});
-  figures.push_back({"End error", number(e.end_error_m, 2), "m", number(e.end_error_pct, 2) + " % of the path"});
+  figures.push_back({"End error", number(e.end_error_m, 2), "m",
+                     e.path_m > 0.0 ? number(e.end_error_pct, 2) + " % of the path" : "the true path has no length"});
+}
+
+/// What can no longer be computed.
+void add_recorded(const RunReport& run, std::vector<Figure>& figures) {
+  for (const ComparisonFigure& figure : comparison_figures()) {
+    const std::optional<double> value = value_of(run, figure);
+    if (value && !figure.of(run)) {
+      figures.push_back(
+          {figure.what.title, number(value, figure.what.digits), figure.what.unit, "as the run recorded it"});
+    }
+  }
 }
 
 void add_speed(const RunReport& run, std::vector<Figure>& figures) {
@@ -62,6 +78,7 @@ TimingFigures timing_of(const std::vector<SweepResult>& sweeps) {
 std::vector<Figure> headline_figures(const RunReport& run) {
   std::vector<Figure> figures;
   if (run.evaluation) add_accuracy(*run.evaluation, figures);
+  add_recorded(run, figures);
   add_speed(run, figures);
   if (run.peak_rss_mb > 0.0) {
     figures.push_back({"Peak memory", number(run.peak_rss_mb, 0), "MB", "resident set of the whole process"});

@@ -9,6 +9,9 @@
 
 namespace rilo {
 
+/// Of a path whose drift means anything.
+inline constexpr double kLeastPathM = 10;
+
 /// Time per sweep.
 struct TimingFigures {
   double mean_ms = 0;

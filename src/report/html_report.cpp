@@ -26,6 +26,10 @@ void check(const RunReport& run) {
     throw std::invalid_argument("a report needs one line of statistics a pose: " + std::to_string(run.sweeps.size()) +
                                 " lines, " + std::to_string(run.estimate.size()) + " poses");
   }
+  if (!run.numbers.empty() && run.numbers.size() != run.estimate.size()) {
+    throw std::invalid_argument("a report needs one number a pose: " + std::to_string(run.numbers.size()) +
+                                " numbers, " + std::to_string(run.estimate.size()) + " poses");
+  }
   check_poses(run.estimate, "estimate");
   check_poses(run.truth, "truth");
 }

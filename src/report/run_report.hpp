@@ -1,6 +1,7 @@
 // What a report shows of one run of the odometry.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,10 +24,11 @@ struct RunReport {
   std::string dataset;   ///< path or name of the data
   std::string notice;    ///< shown on top when not empty, e.g. that the run was interrupted
   std::vector<std::pair<std::string, std::string>>
-      facts;                        ///< command, configuration, corrections, pose instant, threads …
-  std::vector<SE3> estimate;        ///< T_odom_lidar, one per sweep (x forward, y left, z up)
-  std::vector<SE3> truth;           ///< empty, or true poses in the same frame (equal first poses); any length
-  std::vector<SweepResult> sweeps;  ///< empty, or one per pose of `estimate`; only their statistics are shown
+      facts;                         ///< command, configuration, corrections, pose instant, threads …
+  std::vector<SE3> estimate;         ///< T_odom_lidar, one per sweep (x forward, y left, z up)
+  std::vector<SE3> truth;            ///< empty, or true poses in the same frame (equal first poses); any length
+  std::vector<SweepResult> sweeps;   ///< empty, or one per pose of `estimate`; only their statistics are shown
+  std::vector<std::size_t> numbers;  ///< empty: from 0 on, or the places of the poses of `estimate` in the data
   std::optional<Evaluation> evaluation;
   /// Figures found before, for what can no longer be computed (the truth is gone): see ComparisonFigure::key.
   std::map<std::string, double> recorded;

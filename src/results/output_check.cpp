@@ -23,6 +23,11 @@ constexpr std::array kNames = {
     "poses_lidar.txt",         "poses_camera.txt", "trajectory.tum", "trajectory.csv", "trajectory.mcap",
     "trajectory.bag",          "config.yaml",      "sweeps.csv",     "metrics.json",   "report.html",
     "poses_lidar.partial.txt", "map.ply",          "map.pcd"};
+constexpr std::array kMaps = {"map.ply", "map.pcd"};
+
+constexpr std::size_t kHead = 4096;  // bytes of a file that tell what it is
+
+void check_map(const fs::path& file) { check_replaced(file, "Rilo map", "map of an earlier run", "--map"); }
 
 [[noreturn]] void refuse(const fs::path& output, const std::string& why, const std::string& remedy) {
   throw RunError(RunErrorKind::kCannotWrite, output.string() + ": " + why + "; " + remedy);
@@ -58,11 +63,11 @@ void check_against(const fs::path& output, const std::vector<fs::path>& inputs) 
 }
 
 void check_folder(const fs::path& folder, const fs::path& data, const std::vector<fs::path>& files) {
-  // Results among data are read as data, or instead of them.
-  if (holds_sweeps_of(folder, data) || holds_other_data(folder)) {
-    refuse(folder, "holds data, which could not be told from results", "choose a folder of its own as --out");
+  check_apart(folder, data);
+  if (has_a_run(folder)) {
+    for (const char* name : kMaps) check_map(folder / name);
+    return;
   }
-  if (has_a_run(folder)) return;
   for (const fs::path& file : files) {
     if (detail::path_exists(file)) {
       refuse(file, "would be replaced or removed, and no earlier run has left it",
@@ -82,6 +87,7 @@ void check_outputs(const OutputRequest& outputs, const RunRequest& run, const fs
     if (holds_sweeps_of(map_folder, run.data)) {
       refuse(map, "lies among the data and would be read as one of them", "choose another --map");
     }
+    check_map(map);
   }
   if (outputs.out.empty()) return;
   std::vector<fs::path> files;
@@ -89,6 +95,23 @@ void check_outputs(const OutputRequest& outputs, const RunRequest& run, const fs
   if (!outputs.map.empty() && same(map_folder, outputs.out)) files.push_back(map);
   for (const fs::path& file : files) check_against(file, inputs);
   check_folder(outputs.out, run.data, files);
+}
+
+void check_apart(const fs::path& folder, const fs::path& data) {
+  if (holds_sweeps_of(folder, data) || holds_other_data(folder)) {
+    refuse(folder, "holds data, which could not be told from results", "choose a folder of its own as --out");
+  }
+}
+
+void check_replaced(const fs::path& file, const std::string& mark, const std::string& what, const std::string& option) {
+  if (!detail::is_file(file)) return;  // nothing there, or no regular file, which writing refuses
+  std::ifstream stream(file, std::ios::binary);
+  std::string head(kHead, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  if (!head.empty() && head.find(mark) == std::string::npos) {
+    refuse(file, "would be replaced, and is no " + what, "choose another " + option + ", or move the file");
+  }
 }
 
 }  // namespace rilo

@@ -59,6 +59,7 @@ RunReport report_of(const RunRecord& run, const RunMetrics& metrics) {
   report.notice = notice_of(run);
   add_facts(run, metrics, report);
   report.sweeps = run.results;
+  report.numbers = run.indices;
   for (const SweepResult& result : run.results) report.estimate.push_back(result.T_odom_lidar);
   if (run.truth) {
     const SE3 T_odom_world = run.truth->estimate.front() * run.truth->truth.front().inverse();

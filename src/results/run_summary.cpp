@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include "console/text.hpp"
+#include "report/figures.hpp"
 #include "results/run_metrics.hpp"
 
 namespace rilo {
 
 namespace {
-
-constexpr double kLeastPathM = 10;  // of a path whose drift means anything
 
 std::string effort(const RunMetrics& m) {
   std::string text;

@@ -151,7 +151,7 @@ PageServer::PageServer(asio::io_context& io, const std::string& address, std::op
   if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
   if (error) {
     throw IoError({fmt::format("viewer at {}, port {}", address, wanted.port()), "", error.message(),
-                   "an address of this machine and a free port", "--view=0 takes any free port"});
+                   "an address of this machine and a free port", "Port 0 takes any free one"});
   }
 }
 

@@ -5,12 +5,12 @@
 namespace rilo {
 namespace {
 
-const TextTable kTable{{"name", "°"}, {{"a|b", "1.5"}, {"ü, \"x\"\ny", "-10"}, {"short"}}, 1};
+const TextTable kTable{{"name", "°"}, {{"a|<b", "1.5"}, {"ü, \"x\"\ny", "-10"}, {"short"}}, 1};
 
 TEST(TextTable, PlainColumnsLineUpWhateverTheBytesOfACharacter) {
   EXPECT_EQ(kTable.plain(),
             "name        °\n"
-            "a|b       1.5\n"
+            "a|<b      1.5\n"
             "ü, \"x\" y  -10\n"
             "short\n");
 }
@@ -19,7 +19,7 @@ TEST(TextTable, MarkdownEscapesBarsAndKeepsARowOnALine) {
   EXPECT_EQ(kTable.markdown(),
             "| name | ° |\n"
             "|---|---:|\n"
-            "| a\\|b | 1.5 |\n"
+            "| a\\|\\<b | 1.5 |\n"
             "| ü, \"x\" y | -10 |\n"
             "| short |  |\n");
 }
@@ -27,7 +27,7 @@ TEST(TextTable, MarkdownEscapesBarsAndKeepsARowOnALine) {
 TEST(TextTable, CsvQuotesWhatNeedsIt) {
   EXPECT_EQ(kTable.csv(),
             "name,°\n"
-            "a|b,1.5\n"
+            "a|<b,1.5\n"
             "\"ü, \"\"x\"\"\ny\",-10\n"
             "short,\n");
 }

@@ -237,5 +237,28 @@ TEST(BenchCommand, WrongPlansEndBeforeAnythingIsRun) {
   rilo_fails(4, {"bench", good, "--out", file / "out"}, {"file"});
 }
 
+TEST(BenchCommand, ReplacesItsOwnResultsAndNothingElse) {
+  const TempDir folder;
+  const auto plan = folder.write("plan.yaml", "sequences:\n" + sequence("one", shared_drive()));
+  for (const char* name : {"results.csv", "results.json", "paired.csv", "results.sqlite"}) {
+    const fs::path mine = folder.write(std::string(name) + ".d/" + name, "mine");
+    rilo_fails(4, {"bench", plan, "--out", mine.parent_path()}, {name, "would be replaced", "choose another --out"});
+    EXPECT_EQ(slurp(mine), "mine");
+  }
+  const fs::path drive = copy_of_drive(folder);
+  const auto of_drive = folder.write("drive.yaml", "sequences:\n" + sequence("one", drive));
+  for (const fs::path& data : {drive, drive / "velodyne"}) {
+    rilo_fails(4, {"bench", of_drive, "--out", data}, {"holds data", "a folder of its own"});
+  }
+  EXPECT_FALSE(fs::exists(drive / "results.json"));
+  const fs::path out = folder / "out";
+  const std::vector<std::string> command = {"bench", plan, "--out", out, "--quiet", "--count", "6"};
+  rilo_succeeds(command);
+  replace(out / "paired.csv", "of a plan that had peers");
+  fs::remove_all(out / "cells");  // to run all again
+  rilo_succeeds(command);
+  EXPECT_FALSE(fs::exists(out / "paired.csv"));
+}
+
 }  // namespace
 }  // namespace rilo::test

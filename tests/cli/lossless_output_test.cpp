@@ -71,6 +71,21 @@ TEST(LosslessOutput, FilesThatNoRunHasLeftStay) {
   }
 }
 
+TEST(LosslessOutput, AMapReplacesMapsAndNothingElse) {
+  const TempDir folder;
+  const fs::path out = folder / "out";
+  const std::string scan = folder.write("scan.ply", kPoint);
+  const std::string notes = folder.write("notes.pcd", "mine");
+  refused(folder, {shared_drive(), "--map", scan}, {"scan.ply", "no map of an earlier run", "choose another --map"});
+  refused(folder, {shared_drive(), "--map", notes, "--out", out}, {"notes.pcd", "no map of an earlier run"});
+  for (int i = 0; i < 2; ++i) {
+    rilo_succeeds({"run", shared_drive(), "--count", "3", "--map", folder / "map.pcd", "--quiet"});
+    rilo_succeeds({"run", shared_drive(), "--count", "3", "--map", "map.ply", "--out", out, "--quiet"});
+  }
+  replace(out / "map.ply", kPoint);  // put there since
+  refused(folder, {shared_drive(), "--out", out}, {"map.ply", "no map of an earlier run"});
+}
+
 TEST(LosslessOutput, WhatAKilledRunLeftIsReplaced) {
   const TempDir folder;
   const auto out = folder / "out";

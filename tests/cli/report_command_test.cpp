@@ -100,6 +100,7 @@ TEST(ReportCommand, FiguresOutliveTheTruth) {
   const fs::path page = folder / "page.html";
   EXPECT_THAT(rilo_succeeds({"report", moved, "-o", page}).err, HasSubstr("are not where they were"));
   EXPECT_THAT(slurp(page), Not(HasSubstr("against truth")));
+  EXPECT_THAT(slurp(page), HasSubstr("End error"));
   EXPECT_EQ(rilo_succeeds({"report", moved, "--gt", shared_drive() / "poses_mid.txt", "-o", page}).err, "");
   EXPECT_THAT(slurp(page), HasSubstr("Trajectory against truth"));
   EXPECT_EQ(rilo_succeeds({"report", moved, "--gt", shared_drive(), "-o", page}).err, "");
@@ -174,6 +175,17 @@ TEST(ReportCommand, RefusesWhatIsNoResult) {
   rilo_fails(3, {"report", shared_run(), "--gt", folder / "none", "-o", page}, {"--gt"});
   rilo_fails(4, {"report", shared_run(), "-o", folder / "no" / "page.html"}, {"page.html"});
   EXPECT_FALSE(fs::exists(page));
+}
+
+TEST(ReportCommand, ReplacesReportsAndNothingElse) {
+  const TempDir folder;
+  const std::string page = folder.write("page.html", "");  // nothing is lost with it
+  for (int i = 0; i < 2; ++i) rilo_succeeds({"report", shared_run(), "-o", page});
+  for (const char* name : {"poses.txt", "mine.html"}) {
+    const std::string mine = folder.write(name, kitti_row(0, 0, 0) + kitti_row(1, 0, 0));
+    rilo_fails(4, {"report", shared_run(), "-o", mine}, {name, "no report", "choose another -o"});
+    EXPECT_EQ(slurp(mine), kitti_row(0, 0, 0) + kitti_row(1, 0, 0));
+  }
 }
 
 TEST(ReportCommand, RefusesDamagedResults) {

@@ -49,7 +49,8 @@ TEST(Comparison, FiguresByHand) {
 }
 
 TEST(Comparison, EveryChartHasItsFunction) {
-  const std::string html = compared({named(drive(301), "a", "one"), named(drive(20), "b", "two")});
+  const std::string html =
+      compared({named(drive(301), "a", "one"), named(drive(20), "b", "one"), named(drive(20), "c", "two")});
   const std::string comparisons = html.substr(html.find("<article class=\"comparison\">"));
   const std::regex chart("data-chart=\"([a-z]+)\"");
   const std::string part = comparisons.substr(0, comparisons.find("</article>"));
@@ -58,6 +59,8 @@ TEST(Comparison, EveryChartHasItsFunction) {
     EXPECT_THAT(html, HasSubstr("\n  " + (*it)[1].str() + "(comparison, host) {"));
   }
   EXPECT_EQ(count, 10U);
+  // One run alone has nothing beside it.
+  EXPECT_THAT(comparisons.substr(part.size()), Not(HasSubstr("data-chart=\"bars\"")));
 }
 
 TEST(Comparison, SequencesAreGroupedAndOverviewed) {

@@ -72,6 +72,15 @@ TEST(ExperimentPage, ShowsMeansFailuresAndData) {
   }
 }
 
+TEST(ExperimentPage, WithoutACommonSequenceThereAreNoMeans) {
+  ExperimentReport apart;
+  apart.figures = {{"ape_rmse_m", "APE rmse", "m", 3}};
+  apart.cells = {{"one", "full", false, {{"ape_rmse_m", 1.0}}, ""}, {"two", "A", false, {{"ape_rmse_m", 2.0}}, ""}};
+  const std::string html = html_report({"", {}, {}, {apart}});
+  expect_sound(html);
+  EXPECT_THAT(html, HasSubstr("no sequence has figures of every configuration"));
+}
+
 TEST(ExperimentPage, WithoutAnyFigure) {
   ExperimentReport e;
   e.title = "All failed";

@@ -67,6 +67,15 @@ TEST(HtmlReport, DataOfTheCharts) {
 }
 
 // A share of 0 would say that all was wrong where nothing was tried.
+TEST(HtmlReport, SweepsKeepTheirPlacesInTheData) {
+  RunReport run = drive(3);
+  EXPECT_TRUE(data_of(page(run))[0]["numbers"].is_null());
+  run.numbers = {100, 101, 103};
+  EXPECT_EQ(data_of(page(run))[0]["numbers"], nlohmann::json({100, 101, 103}));
+  run.numbers.pop_back();
+  EXPECT_THROW(page(run), std::invalid_argument);
+}
+
 TEST(HtmlReport, WithoutARegistrationThereAreNoInliers) {
   RunReport run = drive(10);
   run.sweeps[0].stats.iterations = 0;
@@ -111,6 +120,23 @@ TEST(HtmlReport, WithoutTruth) {
   EXPECT_TRUE(data_of(html)[0]["errors"].is_null());
 }
 
+TEST(HtmlReport, TheDriftOfAFewMetresIsNoHeadline) {
+  EXPECT_THAT(page(drive(12, 1.2)), HasSubstr("<div class=\"label\">t_rel</div>"));
+  EXPECT_THAT(page(drive(3, 1.2)), Not(HasSubstr("<div class=\"label\">t_rel</div>")));
+}
+
+TEST(HtmlReport, RecordedFiguresStandInForLostTruth) {
+  RunReport run = drive(50);
+  run.truth.clear();
+  run.evaluation.reset();
+  run.recorded = {{"ape_rmse_m", 0.125}, {"ms_median", 99.0}, {"t_rel_pct", std::numeric_limits<double>::quiet_NaN()}};
+  const std::string html = page(run);
+  expect_sound(html);
+  EXPECT_THAT(html, HasSubstr("0.1250<span class=\"unit\">m</span></div><div class=\"note\">as the run recorded it"));
+  EXPECT_THAT(html, Not(HasSubstr("99.0<span")));  // the sweeps say better
+  EXPECT_THAT(html.substr(0, html.find("<script>\n")), Not(HasSubstr("t_rel")));
+}
+
 TEST(HtmlReport, OneSweepAndNone) {
   const std::string one = page(drive(1));
   expect_sound(one);
@@ -128,6 +154,7 @@ TEST(HtmlReport, ASensorAtRest) {
   const std::string html = page(run);
   expect_sound(html);
   EXPECT_THAT(html, HasSubstr("The path is too short for any segment."));
+  EXPECT_THAT(html, Not(HasSubstr("% of the path")));  // that has no length
 }
 
 TEST(HtmlReport, StatisticsThatAreNotFinite) {

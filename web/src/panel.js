@@ -61,6 +61,7 @@ export class Panel {
     $('fact-path').textContent = `${run.metres[shown].toFixed(0)} m`;
     const off = record.hasTruth ? Math.hypot(...record.position.map((p, i) => p - record.truth[i])) : null;
     $('fact-truth').textContent = off === null ? 'no truth' : `${off.toFixed(2)} m`;
+    $('key').querySelector('.truth').style.display = off === null ? 'none' : '';
     $('choice').textContent = words(info.initial_pose[record.source] ?? '?');
     $('choice').style.color = info.initial_pose[record.source] === 'coarse' ? 'var(--coarse)' : '';
     const reason = REASONS[info.initial_pose_reason[record.reason]] ?? '';

@@ -45,7 +45,7 @@ class Strip {
       padding: [4, PAD.right, 0, 0],
       scales: { x: { time: false, range: () => [0, Math.max(1, this.data[0].length - 1)] },
         y: { range: (_, low, high) => [0, high > 0 ? high * 1.12 : 1] } },
-      axes: [{ ...axis, size: 18, gap: 2, space: 60 }, { ...axis, size: PAD.left, gap: 4, space: 26, values: (_, ticks) => ticks.map(short) }],
+      axes: [{ ...axis, size: 18, gap: 2, space: 60 }, { ...axis, size: PAD.left, gap: 4, space: 20, values: (_, ticks) => ticks.map(short) }],
       series: [{}, { stroke: colour(this.spec.stroke), width: 1.4, points: { show: false } }],
     }, this.data, this.box);
   }

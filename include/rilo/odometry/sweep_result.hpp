@@ -101,8 +101,8 @@ struct SweepResult {
   Vector6d twist = Vector6d::Zero();         ///< body velocity at the time of the pose [rad/s; m/s]
   Vector6d acceleration = Vector6d::Zero();  ///< its change during the sweep [rad/s²; m/s²]
   Matrix6d covariance = Matrix6d::Zero();    ///< of the pose, right perturbation, [rad; m]
-  /// Observability of the three translations from the sweep alone, sensor axes: their block of the information less the
-  /// noise of the normals, relative to the largest of the six eigenvalues. Zero for the first sweep and an empty one.
+  /// Observability of the three translations from the sweep alone, sensor axes: their block of the information that
+  /// wider planes confirm, relative to the largest of the six eigenvalues. Zero for the first sweep and an empty one.
   Eigen::Matrix3d translation_evidence = Eigen::Matrix3d::Zero();
   OdometryStatus status = OdometryStatus::kInitialising;
   SweepStats stats;

@@ -14,8 +14,10 @@ const stepOf = (span, count) => {
   const raw = span / Math.max(1, count), power = 10 ** Math.floor(Math.log10(raw));
   return power * [1, 2, 5, 10].find((m) => m * power >= raw * 0.999);
 };
+// At least three where there is room: one alone shows no scale.
 const ticks = (low, high, count, least = 0) => {
-  const step = Math.max(least, stepOf(high - low || 1, count)), values = [];
+  const span = high - low || 1, inside = (step) => Math.floor(high / step + 1e-6) - Math.ceil(low / step - 1e-6) + 1;
+  const coarse = stepOf(span, count), step = Math.max(least, inside(coarse) < 3 ? stepOf(span, 2 * count) : coarse), values = [];
   for (let k = Math.ceil(low / step - 1e-6); k * step <= high + step * 1e-6; ++k) values.push(k * step);
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-6));
   return values.map((v) => ({ v, text: (Math.abs(v) < step / 2 ? 0 : v).toFixed(digits) }));
@@ -111,7 +113,7 @@ const axes = (host, o) => {
   const w = width - m.left - m.right, h = height - m.top - m.bottom;
   const sx = (v) => m.left + (v - x0) / (x1 - x0) * w, sy = (v) => m.top + h - (v - y0) / (y1 - y0) * h;
   let svg = '';
-  for (const t of ticks(y0, y1, Math.max(2, h / 38))) {
+  for (const t of ticks(y0, y1, Math.max(2, h / 38), o.counts ? 1 : 0)) {
     svg += `<line class="gridline" x1="${m.left}" x2="${width - m.right}" y1="${px(sy(t.v))}" y2="${px(sy(t.v))}"/>` +
       `<text x="${m.left - 7}" y="${px(sy(t.v) + 4)}" text-anchor="end">${t.text}</text>`;
   }
@@ -134,14 +136,14 @@ const mount = (host, head, svg, width, height, night) => {
 };
 
 // Curves over one axis. o: {height, x, xlabel, ylabel, series: [{name, y, color, digits, unit, truth, x, dash, width, dots}],
-// levels, zero, ymax, linked, whole: x counts}. A series without x of its own has that of the chart.
+// levels, zero, ymax, linked, whole: x counts, counts: y does}. A series without x of its own has that of the chart.
 const curves = (run, host, o) => {
   let [y0, y1] = range(...o.series.map((s) => s.y));
   if (o.zero) y0 = Math.min(0, y0);
   if (finite(o.ymax)) y1 = Math.min(y1, o.ymax);
   const pad = (y1 - y0) * 0.06;
   const a = axes(host, {
-    height: o.height, xlabel: o.xlabel, ylabel: o.ylabel, zero: o.zero, whole: o.whole, xrange: range(o.x, ...o.series.map((s) => s.x || [])),
+    height: o.height, xlabel: o.xlabel, ylabel: o.ylabel, zero: o.zero, whole: o.whole, counts: o.counts, xrange: range(o.x, ...o.series.map((s) => s.x || [])),
     yrange: [o.zero && y0 === 0 ? 0 : y0 - pad, y1 + pad],
   });
   let svg = a.svg + (o.under ? o.under(a) : '');

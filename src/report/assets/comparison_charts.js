@@ -140,8 +140,9 @@ const comparisonCharts = {
   statuses(comparison, host) {
     const entries = comparison.shown(hasSweeps);
     if (!entries.length) { host.innerHTML = '<p class="empty">None of the runs shown says anything about its sweeps.</p>'; return; }
-    const n = Math.max(...entries.map(({ run }) => run.sweep.length)), row = 44, width = host.clientWidth, left = 8, w = width - 16;
-    const sx = (i) => left + i / n * w, height = entries.length * row + 34, seenNames = new Set();
+    const first = Math.min(...entries.map(({ run }) => run.sweep[0])), end = Math.max(...entries.map(({ run }) => run.sweep[run.sweep.length - 1])) + 1;
+    const row = 44, width = host.clientWidth, left = 8, w = width - 16;
+    const sx = (v) => left + (v - first) / (end - first) * w, height = entries.length * row + 34, seenNames = new Set();
     let svg = '';
     entries.forEach((entry, k) => {
       const s = entry.run.data.sweeps.status, y = k * row + 18;
@@ -151,17 +152,21 @@ const comparisonCharts = {
         while (j < s.codes.length && s.codes[j] === s.codes[i]) ++j;
         const name = s.names[s.codes[i]];
         seenNames.add(name);
-        svg += `<rect x="${px(sx(i))}" y="${y}" width="${px(Math.max(1.5, sx(j) - sx(i)))}" height="20" fill="${statusColor(name)}"/>`;
+        const x = sx(entry.run.sweep[i]);
+        svg += `<rect x="${px(x)}" y="${y}" width="${px(Math.max(1.5, sx(entry.run.sweep[j - 1] + 1) - x))}" height="20" fill="${statusColor(name)}"/>`;
         i = j;
       }
     });
-    for (const t of ticks(0, n, Math.max(2, w / 90))) svg += `<text x="${px(sx(t.v))}" y="${height - 18}" text-anchor="${t.v === 0 ? 'start' : 'middle'}">${t.text}</text>`;
+    for (const t of ticks(first, end, Math.max(2, w / 90), 1)) {
+      const anchor = t.v === first ? 'start' : sx(t.v) > width - 24 ? 'end' : 'middle';  // within the picture
+      svg += `<text x="${px(sx(t.v))}" y="${height - 18}" text-anchor="${anchor}">${t.text}</text>`;
+    }
     svg += `<text x="${px(left + w / 2)}" y="${height - 3}" text-anchor="middle">sweep</text>`;
     const head = legend([...seenNames].map((name) => ({ name: (name || 'unknown').replace(/_/g, ' '), color: statusColor(name), kind: 'box' })));
     const view = mount(host, head, svg, width, height);
     track(view.svg, (x, y) => {
       const k = Math.max(0, Math.min(entries.length - 1, Math.floor(y / row))), { run, name } = entries[k];
-      const i = Math.max(0, Math.min(run.sweep.length - 1, Math.floor((x - left) / w * n))), s = run.data.sweeps;
+      const i = nearest(run.sweep, first - 0.5 + (x - left) / w * (end - first)), s = run.data.sweeps;
       view.tip.at(x, y, [name, run.where(i), `status: ${s.status.names[s.status.codes[i]]}`, `initial pose: ${s.initial.names[s.initial.codes[i]]}`]);
     }, view.tip.hide);
   },

@@ -72,16 +72,16 @@ const charts = {
     const levels = [{ name: 'median', y: s.median, color: 'var(--text)', dash: '6 4' }, { name: 'p95', y: s.p95, color: 'var(--weak)', dash: '6 4' },
       { name: 'p99', y: s.p99, color: 'var(--bad)', dash: '6 4' }, { name: 'sweep period', y: s.period, color: 'var(--other)', dash: '2 4' }];
     const top = Math.min(s.max, Math.max(2.5 * s.p95, s.max > s.period ? 1.1 * s.period : 0));
-    const above = run.sweep.filter((i) => s.total[i] > 1.06 * top);
+    const above = run.sweep.filter((_, i) => s.total[i] > 1.06 * top);
     const head = legend([...stages.map(({ name, color }) => ({ name, color, kind: 'box' })),
       ...levels.map((l) => ({ name: l.name, value: `${show(l.y, 1)} ms`, color: l.color, kind: 'dash' })),
       { name: 'max', value: `${show(s.max, 1)} ms` },
       ...(above.length ? [{ name: 'beyond the scale', value: String(above.length), color: 'var(--bad)', kind: 'box' }] : [])]);
     curves(run, host, {
-      height: 250, x: run.sweep, whole: true, zero: true, ymax: top, levels, legend: head, xlabel: 'sweep', xname: (i) => `sweep ${i}`, linked: true,
+      height: 250, x: run.sweep, whole: true, zero: true, ymax: top, levels, legend: head, xlabel: 'sweep', xname: run.name, linked: true,
       series: [{ name: 'total', y: s.total, color: stages.length ? 'var(--text)' : 'var(--a)', digits: 1, unit: 'ms' }],
       under: (a) => stacked(a, run.sweep, stages),
-      over: (a) => above.map((i) => `<path fill="var(--bad)" d="M${px(a.sx(i) - 4)} ${a.m.top + 7}h8l-4 -7z"/>`).join(''),
+      over: (a) => above.map((v) => `<path fill="var(--bad)" d="M${px(a.sx(v) - 4)} ${a.m.top + 7}h8l-4 -7z"/>`).join(''),
     });
   },
   histogram(run, host) {
@@ -92,7 +92,7 @@ const charts = {
     const counts = new Array(last + 1).fill(0);
     for (const v of s.total) if (finite(v)) ++counts[Math.min(Math.floor(v / width) - first, last)];
     const beyond = s.total.filter((v) => finite(v) && v >= (first + last + 1) * width).length;
-    const a = axes(host, { height: 250, xlabel: 'ms per sweep', xrange: [first * width, (first + last + 1) * width], yrange: [0, range(counts)[1] * 1.06] });
+    const a = axes(host, { height: 250, counts: true, xlabel: 'ms per sweep', xrange: [first * width, (first + last + 1) * width], yrange: [0, range(counts)[1] * 1.06] });
     let svg = a.svg;
     counts.forEach((c, b) => {
       const x = a.sx((first + b) * width), x2 = a.sx((first + b + 1) * width), color = b === last && beyond ? 'var(--bad)' : 'var(--a)';
@@ -115,7 +115,7 @@ const charts = {
   status(run, host) {
     const s = run.data.sweeps, n = s.total.length, rows = [['status', s.status, statusColor], ['initial pose', s.initial, initialColor]];
     const width = host.clientWidth, left = 88, w = width - left - 12, band = 24, gap = 10;
-    const sx = (i) => left + i / n * w;
+    const first = run.sweep[0], end = run.sweep[n - 1] + 1, sx = (v) => left + (v - first) / (end - first) * w;
     let svg = '', head = '';
     rows.forEach(([title, column, color], r) => {
       const y = 4 + r * (band + gap), counts = column.names.map(() => 0);
@@ -124,24 +124,25 @@ const charts = {
         let j = i;
         while (j < n && column.codes[j] === column.codes[i]) ++j;
         counts[column.codes[i]] += j - i;
-        svg += `<rect x="${px(sx(i))}" y="${y}" width="${px(Math.max(1.5, sx(j) - sx(i)))}" height="${band}" fill="${color(column.names[column.codes[i]])}"/>`;
+        const x = sx(run.sweep[i]);
+        svg += `<rect x="${px(x)}" y="${y}" width="${px(Math.max(1.5, sx(run.sweep[j - 1] + 1) - x))}" height="${band}" fill="${color(column.names[column.codes[i]])}"/>`;
         i = j;
       }
       head += legend(column.names.map((name, k) => ({ name: `${(name || 'unknown').replace(/_/g, ' ')}`, value: String(counts[k]), color: color(name), kind: 'box' })));
     });
     const bottom = 4 + rows.length * (band + gap);
-    for (const t of ticks(0, n, Math.max(2, w / 90), 1)) svg += `<text x="${px(sx(t.v))}" y="${bottom + 8}" text-anchor="middle">${t.text}</text>`;
+    for (const t of ticks(first, end, Math.max(2, w / 90), 1)) svg += `<text x="${px(sx(t.v))}" y="${bottom + 8}" text-anchor="middle">${t.text}</text>`;
     svg += `<line class="cursor" y1="0" y2="${bottom - gap + 4}" visibility="hidden"/>`;
     const view = mount(host, head, svg, width, bottom + 14);
     const line = view.svg.querySelector('.cursor');
     run.listeners.push((i) => {
       line.setAttribute('visibility', i === null ? 'hidden' : 'visible');
-      if (i !== null) for (const end of ['x1', 'x2']) line.setAttribute(end, px(sx(i + 0.5)));
+      if (i !== null) for (const side of ['x1', 'x2']) line.setAttribute(side, px(sx(run.sweep[i] + 0.5)));
     });
     track(view.svg, (x, y) => {
-      const i = Math.max(0, Math.min(n - 1, Math.floor((x - left) / w * n)));
+      const i = nearest(run.sweep, first - 0.5 + (x - left) / w * (end - first));
       run.point(i);
-      view.tip.at(x, y, [`sweep ${i}`, ...rows.map(([title, column]) => `${title}: ${column.names[column.codes[i]]}`)]);
+      view.tip.at(x, y, [run.name(i), ...rows.map(([title, column]) => `${title}: ${column.names[column.codes[i]]}`)]);
     }, () => { view.tip.hide(); run.point(null); });
   },
   strips(run, host) {
@@ -150,8 +151,8 @@ const charts = {
     host.innerHTML = rows.map(([title]) => `<p class="striptitle">${title}</p><div class="chart"></div>`).join('');
     const hosts = host.querySelectorAll('.chart');
     rows.forEach(([name, y, color, digits, unit], k) => curves(run, hosts[k], {
-      height: k === rows.length - 1 ? 132 : 112, x: run.sweep, whole: true, zero: true, legend: '', xlabel: k === rows.length - 1 ? 'sweep' : '',
-      xname: (i) => `sweep ${i}`, linked: true, series: [{ name: name.replace(' (m)', ''), y, color, digits, unit }],
+      height: k === rows.length - 1 ? 132 : 112, x: run.sweep, whole: true, counts: name === 'iterations', zero: true, legend: '', xlabel: k === rows.length - 1 ? 'sweep' : '',
+      xname: run.name, linked: true, series: [{ name: name.replace(' (m)', ''), y, color, digits, unit }],
     }));
   },
 };
@@ -176,10 +177,11 @@ function stacked(a, x, stages) {
 
 const runOf = (data) => {
   const distance = distances(data.estimate);
-  const run = { data, distance, listeners: [], sweep: distance.map((_, i) => i) };
+  const run = { data, distance, listeners: [], sweep: data.numbers || distance.map((_, i) => i) };
   run.paired = Boolean(data.errors) && data.errors.distance.length === distance.length;
   run.point = (i) => { for (const listener of run.listeners) listener(i); };
-  run.where = (i) => `sweep ${i}, ${show(distance[i], 1)} m`;
+  run.name = (i) => `sweep ${run.sweep[i]}`;
+  run.where = (i) => `${run.name(i)}, ${show(distance[i], 1)} m`;
   run.describe = (i) => {
     const p = data.estimate, lines = [run.where(i), `x ${show(p.x[i], 2)}  y ${show(p.y[i], 2)}  z ${show(p.z[i], 2)} m`];
     if (run.paired) lines.push(`error ${show(data.errors.translation[i], 3)} m, ${show(data.errors.rotation[i], 3)}°`);

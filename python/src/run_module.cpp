@@ -115,7 +115,7 @@ double path_m(const PythonRun& run) {
 
 std::string run_repr(const PythonRun& run) {
   return text_of("<rilo.RunResult of %zu sweeps, %.1f m in %.1f s of computing%s>", run.session.results.size(),
-                 path_m(run), run.session.wall_s, run.session.started_over_after ? ", two passes" : "");
+                 path_m(run), run.session.wall_s, run.session.restart ? ", two passes" : "");
 }
 
 std::string run_html(const PythonRun& run) {
@@ -127,9 +127,9 @@ std::string run_html(const PythonRun& run) {
                 {"path", text_of("%.1f m", path_m(run))},
                 {"point times", r.source.point_times},
                 {"time", text_of("%.1f s on %d threads", r.wall_s, r.threads)}};
-  if (r.started_over_after) {
-    rows.emplace_back("passes",
-                      text_of("2: restarted after %zu sweeps with the elevation offset found", *r.started_over_after));
+  if (r.restart) {
+    rows.emplace_back("passes", text_of("2: started over after %zu sweeps with what they say about the sensor",
+                                        r.restart->after_sweeps));
   }
   for (const std::string& warning : run.warnings) rows.emplace_back("warning", warning);
   return html_table("rilo.RunResult", rows);
@@ -185,11 +185,15 @@ void add_run(py::module_& module) {
           "map", [](const PythonRun& run) { return point_array(std::vector<Eigen::Vector3f>(run.map)); },
           "Map of the whole run, odometry frame, (M, 3) float32, m; empty without map_voxel_m.")
       .def_property_readonly(
-          "started_over_after", [](const PythonRun& run) { return run.session.started_over_after; },
+          "started_over_after",
+          [](const PythonRun& run) {
+            const std::optional<Restart>& restart = run.session.restart;
+            return restart ? std::optional(restart->after_sweeps) : std::nullopt;
+          },
           "Sweeps of the first pass when there was a second, else None.")
       .def_property_readonly(
           "config", [](const PythonRun& run) { return dump_config(run.session.config); },
-          "Configuration that led to the poses, YAML with all keys.")
+          "Configuration of the run, YAML with all keys.")
       .def_property_readonly(
           "wall_s", [](const PythonRun& run) { return run.session.wall_s; }, "Duration of the run, s.")
       .def_property_readonly(

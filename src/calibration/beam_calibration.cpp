@@ -1,6 +1,7 @@
 #include "calibration/beam_calibration.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -106,6 +107,13 @@ void BeamCalibration::apply_differences() {
       angles_.at(b) += (steps_[b] - (sum / total).matrix()).cast<float>();
     }
   }
+}
+
+void BeamCalibration::start_over() {
+  BeamCalibration next(config_);
+  next.angles_ = angles_;
+  next.in_order_ = in_order_;  // of which the corrections are
+  *this = std::move(next);
 }
 
 Eigen::Vector2d BeamCalibration::rms_rad() const {

@@ -34,7 +34,8 @@ class BeamCalibration {
   /// Root mean square of the corrections over all beams in use, elevation and azimuth (rad).
   Eigen::Vector2d rms_rad() const;
 
-  void reset() { *this = BeamCalibration(config_); }
+  /// Forgets the sweeps and keeps the angles.
+  void start_over();
 
  private:
   /// Of one beam: normal equations of elevation and azimuth, of the last sweep and averaged.

@@ -151,15 +151,26 @@ void ElevationOffsetEstimator::decide() {
   following_ = following_ || certain(estimate) || certain(estimate - config_.initial_deg * kRadPerDeg);
 }
 
+double ElevationOffsetEstimator::target_rad() const {
+  const double estimate = offset_rad();
+  return std::abs(estimate) > std::min(kTakeBack, config_.significance) * sigma_rad() ? estimate : 0.0;
+}
+
+void ElevationOffsetEstimator::start_over() {
+  ElevationOffsetConfig config = config_;
+  if (config.enabled && following_) {
+    config.initial_deg = kDegPerRad * target_rad();
+  }
+  *this = ElevationOffsetEstimator(config);
+}
+
 double ElevationOffsetEstimator::advance() {
   decide();
   if (!config_.enabled || !following_) {
     return 0.0;
   }
-  const double estimate = offset_rad();
-  const double target = std::abs(estimate) > std::min(kTakeBack, config_.significance) * sigma_rad() ? estimate : 0.0;
   const double step = config_.step_deg * kRadPerDeg;
-  const double change = std::clamp(target - applied_rad_, -step, step);
+  const double change = std::clamp(target_rad() - applied_rad_, -step, step);
   applied_rad_ += change;
   return change;
 }

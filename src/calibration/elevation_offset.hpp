@@ -46,10 +46,13 @@ class ElevationOffsetEstimator {
   /// angle; takes the correction back when the error is no longer significant. Returns the change of the applied angle.
   double advance();
 
-  void reset() { *this = ElevationOffsetEstimator(config_); }
+  /// Forgets the sweeps; what is applied from now on, in place of the configured angle, is the estimate if that was
+  /// certain.
+  void start_over();
 
  private:
   void decide();
+  double target_rad() const;
 
   ElevationOffsetConfig config_;
   double applied_rad_ = 0;

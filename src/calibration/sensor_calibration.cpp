@@ -28,6 +28,13 @@ void SensorCalibration::move(LocalMap& map) {
   }
 }
 
+void SensorCalibration::start_over() {
+  elevation_.start_over();
+  beams_.start_over();
+  pose_by_elevation_ = {};
+  change_rad_ = 0.0;
+}
+
 void SensorCalibration::apply_to(Preprocessor& preprocessor) const {
   preprocessor.track_beams(beams_config_.enabled);
   preprocessor.set_elevation_offset(elevation_.applied_rad());

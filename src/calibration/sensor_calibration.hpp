@@ -35,6 +35,9 @@ class SensorCalibration {
 
   void reset() { *this = SensorCalibration(elevation_config_, beams_config_); }
 
+  /// Keeps what was found, for another pass over the sweeps: learning begins anew from there.
+  void start_over();
+
  private:
   ElevationOffsetConfig elevation_config_;
   BeamCalibrationConfig beams_config_;

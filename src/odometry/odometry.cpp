@@ -31,4 +31,6 @@ const std::vector<float>& Odometry::last_map_intensities() const { return impl_-
 
 void Odometry::reset() { impl_->reset(); }
 
+double Odometry::start_over() { return impl_->start_over(); }
+
 }  // namespace rilo

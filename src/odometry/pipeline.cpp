@@ -275,6 +275,11 @@ void Pipeline::finish(SweepResult& result) {
 }
 
 void Pipeline::reset() {
+  calibration_.reset();
+  start_over();
+}
+
+double Pipeline::start_over() {
   budget_.reset();
   preprocessor_.reset();
   sweep_clock_.reset();
@@ -283,7 +288,7 @@ void Pipeline::reset() {
   judge_.reset();
   threshold_.reset();
   pose_covariance_.reset();
-  calibration_.reset();
+  calibration_.start_over();
   calibration_.apply_to(preprocessor_);
   map_.clear();
   trajectory_.clear();
@@ -291,6 +296,7 @@ void Pipeline::reset() {
   contradicted_ = false;
   shares_ = {};
   last_step_.setZero();
+  return calibration_.elevation().applied_rad();
 }
 
 bool Pipeline::in_doubt() const { return !established() || tracker_.lost(); }

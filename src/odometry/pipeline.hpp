@@ -33,6 +33,7 @@ class Pipeline {
   SweepResult register_sweep(const SweepView& sweep);
 
   void reset();
+  double start_over();
 
   const Trajectory& trajectory() const { return trajectory_; }
   const SweepMap& map() const { return map_; }

@@ -76,9 +76,9 @@ std::optional<BudgetMetrics> budget(const RunRecord& run) {
 
 // What the run found out about the sensor's angles; the correction given on the command line comes on top.
 void add_sensor_angles(const RunRecord& run, RunMetrics& metrics) {
-  metrics.elevation_initial_deg = run.config.elevation.enabled ? run.config.elevation.initial_deg : 0.0;
+  metrics.elevation_initial_deg = run.restart ? run.restart->elevation_offset_deg : run.config.elevation.initial_deg;
   metrics.elevation_offset_applied_deg = 0.0;
-  metrics.started_over_after_sweeps = run.started_over_after;
+  if (run.restart) metrics.started_over_after_sweeps = run.restart->after_sweeps;
   if (run.results.empty()) return;
   const SweepStats& last = run.results.back().stats;
   metrics.beam_elevation_rms_deg = kDegPerRad * last.beam_elevation_rms_rad;

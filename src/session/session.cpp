@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -64,11 +65,19 @@ class Session::Impl {
   }
 
   void run_sweeps() {
+    const std::size_t count = options_.count > 0 ? options_.count : std::numeric_limits<std::size_t>::max();
     source_->skip(options_.start);
-    while (!interrupted() && (options_.count == 0 || result_.results.size() < options_.count) && step()) {
-      if (restart_due()) restart();
+    if (!options_.one_pass) {
+      run_until(std::min(count, kCalibrationSweeps));
+      if (!result_.interrupted && knows_sensor()) start_over();
     }
+    run_until(count);
     if (result_.results.empty() && !result_.interrupted) throw RunError(RunErrorKind::kBadData, nothing_to_run());
+  }
+
+  void run_until(std::size_t sweeps) {
+    while (result_.results.size() < sweeps && !interrupted() && step()) {
+    }
   }
 
   // Raw points without times are common, and nothing but the fit tells them from compensated ones.
@@ -98,25 +107,24 @@ class Session::Impl {
     return true;
   }
 
-  // The elevation offset has just become certain, and the sweeps before were registered without its correction.
-  bool restart_due() const {
-    const bool applied = result_.results.back().stats.elevation_applied_rad != 0.0;
-    return !options_.one_pass && !result_.started_over_after && applied &&
-           options_.config.elevation.initial_deg == 0.0 && result_.results.size() <= kRestartWithinSweeps;
+  // Whether something was learnt about the sensor, which the sweeps before were registered without.
+  bool knows_sensor() const {
+    if (result_.results.empty()) return false;
+    const SweepStats& last = result_.results.back().stats;
+    return last.elevation_applied_rad != kRadPerDeg * options_.config.elevation.initial_deg ||
+           last.beam_elevation_rms_rad > 0.0 || last.beam_azimuth_rms_rad > 0.0;
   }
 
-  void restart() {
+  void start_over() {
     // Before anything is given up: the data may be gone meanwhile.
     auto source = open_();
     source->skip(options_.start);
-    const Restart restart{result_.results.size(), kDegPerRad * result_.results.back().stats.elevation_offset_rad};
-    options_.config.elevation.initial_deg = restart.elevation_offset_deg;
-    result_.started_over_after = restart.after_sweeps;
+    source_ = std::move(source);
+    const double beams_rad = result_.results.back().stats.beam_elevation_rms_rad;
+    result_.restart = {result_.results.size(), kDegPerRad * odometry_.start_over(), kDegPerRad * beams_rad};
     result_.results.clear();
     result_.indices.clear();
-    source_ = std::move(source);
-    odometry_ = new_odometry();
-    for (SessionObserver* observer : observers_) observer->on_restart(restart);
+    for (SessionObserver* observer : observers_) observer->on_restart(*result_.restart);
   }
 
   // As they come: a run may take hours.
@@ -141,7 +149,7 @@ class Session::Impl {
   }
 
   OpenSource open_;
-  SessionOptions options_;  // with the elevation offset found, in the second pass
+  SessionOptions options_;
   std::unique_ptr<ScanSource> source_;
   Odometry odometry_;
   std::vector<SessionObserver*> observers_;

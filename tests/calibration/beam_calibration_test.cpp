@@ -80,6 +80,17 @@ TEST(BeamCalibration, FindsTheErrorsOfAlternatingBeams) {
   EXPECT_GT(calibration.rms_rad().y(), 0.02 * kDegree);
 }
 
+TEST(BeamCalibration, StartingOverKeepsTheAngles) {
+  BeamCalibration calibration =
+      learnt(0.4, [](Beam beam) { return Eigen::Vector2f(beam % 2 == 0 ? 0.06F : -0.06F, 0.0F); });
+  const Eigen::Vector2f angles = calibration.angles().of(440);
+  const Eigen::Vector2d rms = calibration.rms_rad();
+  ASSERT_FALSE(angles.isZero());
+  calibration.start_over();
+  EXPECT_EQ(calibration.angles().of(440), angles);
+  EXPECT_EQ(calibration.rms_rad(), rms);
+}
+
 TEST(BeamCalibration, WhatAllBeamsShareIsLeftAlone) {
   const BeamCalibration calibration = learnt(0.4, [](Beam) { return Eigen::Vector2f(0.06F, 0.04F); });
   EXPECT_LT(calibration.rms_rad().x(), 0.012 * kDegree);

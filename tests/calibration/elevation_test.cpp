@@ -219,6 +219,25 @@ TEST(Elevation, WhatIsKnownBeforehandIsAppliedAtOnceAndFollowed) {
   EXPECT_DOUBLE_EQ(fixed.applied_rad(), 0.27 * kDegree);
 }
 
+TEST(Elevation, StartingOverBeginsWithAnEstimateThatWasCertain) {
+  ElevationOffsetEstimator estimator({});
+  see(estimator, 0.2 * kDegree, 60);
+  const double found = estimator.offset_rad();
+  estimator.start_over();
+  EXPECT_NEAR(estimator.applied_rad(), found, 1e-12);
+  EXPECT_EQ(estimator.offset_rad(), estimator.applied_rad());
+  EXPECT_TRUE(std::isinf(estimator.sigma_rad())) << "the same sweeps come again: they must not count twice";
+  see(estimator, 0.1 * kDegree, 60);
+  EXPECT_NEAR(estimator.applied_rad(), 0.1 * kDegree, 1e-3 * kDegree);
+
+  ElevationOffsetConfig config;
+  config.initial_deg = 0.1;
+  ElevationOffsetEstimator few(config);
+  see(few, 0.4 * kDegree, 3);  // of which nothing is certain
+  few.start_over();
+  EXPECT_DOUBLE_EQ(few.applied_rad(), 0.1 * kDegree);
+}
+
 TEST(Elevation, ACorrectionIsTakenBackWhenNothingIsLeftOfIt) {
   ElevationOffsetEstimator estimator({});
   see(estimator, 0.2 * kDegree, 30);

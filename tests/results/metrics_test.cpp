@@ -99,12 +99,12 @@ TEST(Metrics, TheSummaryNamesOneElevationOffset) {
   EXPECT_THAT(text, Not(HasSubstr("--elevation-correction")));
   EXPECT_THAT(text, HasSubstr("median 25.0"));
   run.source.elevation_correction_deg = 0.205;
-  run.started_over_after = 18;
-  run.config.elevation.initial_deg = 0.197;
+  run.restart = Restart{.after_sweeps = 18, .elevation_offset_deg = 0.197};
   const std::string corrected = run_summary(run_metrics(run));
   EXPECT_THAT(corrected, HasSubstr("given +0.205 deg (--elevation-correction)"));
-  EXPECT_THAT(corrected,
-              HasSubstr("applied +0.201 deg at last, +0.197 deg from the first sweep on (restarted after 18 sweeps)"));
+  EXPECT_THAT(
+      corrected,
+      HasSubstr("applied +0.201 deg at last, +0.197 deg from the first sweep on (started over after 18 sweeps)"));
 }
 
 TEST(Metrics, TheSummaryAddsUpTheAnglesThatWereGiven) {

@@ -24,8 +24,8 @@ void expect_same_run(const fs::path& data, const SessionOptions& options, const 
 
   const SessionResult run = run_recording(data, options, source);
   const auto metrics = nlohmann::json::parse(slurp(out / "metrics.json"));
-  ASSERT_TRUE(run.started_over_after) << "the run had one pass only";
-  EXPECT_EQ(metrics["started_over_after_sweeps"], *run.started_over_after);
+  ASSERT_TRUE(run.restart) << "the run had one pass only";
+  EXPECT_EQ(metrics["started_over_after_sweeps"], run.restart->after_sweeps);
   write_kitti_poses(folder / "library.txt", run.trajectory());
   write_mcap(folder / "library.mcap", run.results);
   EXPECT_EQ(slurp(folder / "library.txt"), slurp(out / "poses_lidar.txt"));

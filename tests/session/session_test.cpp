@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "geometry/degrees.hpp"
 #include "io/sweeps_source.hpp"
 #include "rilo/session/session_observer.hpp"
 #include "simulation/small_drive.hpp"
@@ -100,30 +101,41 @@ TEST(Session, TellsItsObserversAndGivesAllSweeps) {
   EXPECT_EQ(run.trajectory().back().stamp_ns, run.results.back().stamp_ns);
 }
 
-TEST(Session, SecondPassIsTheRunWithTheOffsetFound) {
+TEST(Session, SecondPassBeginsWithWhatTheFirstSaysAboutTheSensor) {
   Session session(open_drive, soon_certain());
   Log log;
   session.add(log);
   const SessionResult two = session.run();
   ASSERT_EQ(two.failure, nullptr);
   ASSERT_EQ(log.restarts.size(), 1U);
-  EXPECT_EQ(two.started_over_after, log.restarts[0].after_sweeps);
-  EXPECT_EQ(two.config.elevation.initial_deg, log.restarts[0].elevation_offset_deg);
-  EXPECT_NE(two.config.elevation.initial_deg, 0.0);
+  ASSERT_TRUE(two.restart);
+  EXPECT_EQ(two.restart->after_sweeps, kSweeps) << "fewer than the first pass may have";
+  EXPECT_EQ(two.restart->elevation_offset_deg, log.restarts[0].elevation_offset_deg);
+  EXPECT_NE(two.restart->elevation_offset_deg, 0.0);
+  EXPECT_DOUBLE_EQ(kDegPerRad * two.results.front().stats.elevation_applied_rad, two.restart->elevation_offset_deg);
   EXPECT_EQ(two.results.size(), kSweeps);
+  EXPECT_EQ(two.config.elevation.initial_deg, 0.0) << "the configuration is the one that was given";
 
-  SessionOptions options;
-  options.config = two.config;
-  const SessionResult again = Session(open_drive, options).run();
-  EXPECT_FALSE(again.started_over_after);
+  const SessionResult again = Session(open_drive, soon_certain()).run();
   EXPECT_EQ(poses(again), poses(two));
+}
+
+TEST(Session, NothingLearntIsNoReasonToStartOver) {
+  SessionOptions options;
+  options.config.elevation.enabled = false;
+  options.config.beams.enabled = false;
+  const SessionResult run = Session(open_drive, options).run();
+  EXPECT_FALSE(run.restart);
+  EXPECT_EQ(run.results.size(), kSweeps);
+  options.one_pass = true;
+  EXPECT_EQ(poses(Session(open_drive, options).run()), poses(run));
 }
 
 TEST(Session, OnePassStaysAsItWas) {
   SessionOptions options = soon_certain();
   options.one_pass = true;
   const SessionResult run = Session(open_drive, options).run();
-  EXPECT_FALSE(run.started_over_after);
+  EXPECT_FALSE(run.restart);
   EXPECT_EQ(run.config.elevation.initial_deg, 0.0);
   EXPECT_NE(run.results.back().stats.elevation_applied_rad, 0.0);
 }
@@ -133,7 +145,7 @@ TEST(Session, StartAndCountHoldInBothPasses) {
   options.start = 3;
   options.count = 20;
   const SessionResult run = Session(open_drive, options).run();
-  EXPECT_TRUE(run.started_over_after);
+  EXPECT_TRUE(run.restart);
   ASSERT_EQ(run.indices.size(), 20U);
   EXPECT_EQ(run.indices.front(), 3U);
   EXPECT_EQ(sweeps_to_do(DriveSource(), 3, 20), 20U);
@@ -165,7 +177,7 @@ TEST(Session, DataThatCannotBeOpenedAgainKeepTheFirstPass) {
   };
   const SessionResult run = Session(once, soon_certain()).run();
   EXPECT_NE(run.failure, nullptr);
-  EXPECT_FALSE(run.started_over_after);
+  EXPECT_FALSE(run.restart);
   EXPECT_GT(run.results.size(), 0U);
 }
 
@@ -193,17 +205,19 @@ TEST(Session, TheMapIsThatOfTheLastPass) {
   Session session(open_drive, soon_certain());
   session.add(two_passes);
   const SessionResult run = session.run();
-  ASSERT_TRUE(run.started_over_after);
+  ASSERT_TRUE(run.restart);
 
-  SessionOptions options;
-  options.config = run.config;
-  MapObserver one_pass(0.5);
-  Session again(open_drive, options);
-  again.add(one_pass);
-  again.run();
-  EXPECT_EQ(two_passes.cloud(false).points, one_pass.cloud(false).points);
+  Odometry odometry(run.config);
+  for (const Sweep& sweep : drive()) odometry.register_sweep(sweep);
+  odometry.start_over();
+  MapObserver second_pass(0.5);
+  for (const Sweep& sweep : drive()) {
+    const SweepResult result = odometry.register_sweep(sweep);
+    second_pass.on_registered({0, sweep, result, odometry});
+  }
+  EXPECT_EQ(two_passes.cloud(false).points, second_pass.cloud(false).points);
   EXPECT_EQ(two_passes.cloud(true).normals.size(), two_passes.cloud(true).points.size());
-  EXPECT_GT(one_pass.cloud(false).points.size(), 1000U);
+  EXPECT_GT(second_pass.cloud(false).points.size(), 1000U);
 }
 
 }  // namespace

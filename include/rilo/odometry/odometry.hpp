@@ -53,6 +53,10 @@ class Odometry {
   /// Forgets map, trajectory and motion; the next sweep starts at the identity again.
   void reset();
 
+  /// As reset(), but what was learnt about the sensor stays: its elevation offset, if that is certain, and the angles
+  /// of its beams correct the points from the next sweep on. Returns the elevation offset (rad).
+  double start_over();
+
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;

@@ -39,16 +39,16 @@ class RunError : public std::runtime_error {
   RunErrorKind kind_;
 };
 
-/// The first pass must find the elevation offset within that many sweeps: later, the beginning is a small part of the
-/// run.
-inline constexpr std::size_t kRestartWithinSweeps = 200;
+/// The first pass, in which the sensor is learnt, ends after that many sweeps: 20 s at 10 Hz.
+inline constexpr std::size_t kCalibrationSweeps = 200;
 
 struct SessionOptions {
   OdometryConfig config;
   std::size_t start = 0;  ///< sweeps skipped at the beginning of the data
   std::size_t count = 0;  ///< sweeps to run at most; 0: all
-  /// Single pass, as in live operation. Otherwise the run starts over, once, with the elevation offset of the sensor as
-  /// soon as that is certain, so that the first sweeps have its correction, too.
+  /// Single pass, as in live operation. Otherwise the run starts over, once, with what the first kCalibrationSweeps (or
+  /// all, if there are fewer) say about the sensor, its elevation offset and the angles of its beams, so that the first
+  /// sweeps have the corrections, too.
   bool one_pass = false;
   /// As the source was opened. With kAuto, points that come without times are tried: when they fit better with those of
   /// their order, the run takes them (not in a single pass, which does not look ahead).
@@ -59,23 +59,23 @@ struct SessionOptions {
 
 /// Result of a run, complete whatever ended it.
 struct SessionResult {
-  std::vector<SweepResult> results;  ///< one per registered sweep, in order
-  std::vector<std::size_t> indices;  ///< place of each sweep in the data
-  SourceInfo source;                 ///< at the end of the run
-  OdometryConfig config;             ///< that led to `results`: with the elevation offset when the run started over
-  int threads = 0;                   ///< used by the odometry
-  CompensationTrial trial;           ///< of points without times
-  std::optional<std::size_t> started_over_after;  ///< sweeps of the first pass, when there was a second
-  PoseInstant pose_instant = PoseInstant::kMid;   ///< of the sweep, that the poses refer to
-  double wall_s = 0;                              ///< duration of the run, both passes; not of the trial
-  double peak_rss_mb = 0;                         ///< largest memory of this process so far
-  bool interrupted = false;                       ///< by SessionOptions::interrupted
-  std::exception_ptr failure;                     ///< that ended the run; null: none
+  std::vector<SweepResult> results;              ///< one per registered sweep, in order
+  std::vector<std::size_t> indices;              ///< place of each sweep in the data
+  SourceInfo source;                             ///< at the end of the run
+  OdometryConfig config;                         ///< as given
+  int threads = 0;                               ///< used by the odometry
+  CompensationTrial trial;                       ///< of points without times
+  std::optional<Restart> restart;                ///< when there was a second pass
+  PoseInstant pose_instant = PoseInstant::kMid;  ///< of the sweep, that the poses refer to
+  double wall_s = 0;                             ///< duration of the run, both passes; not of the trial
+  double peak_rss_mb = 0;                        ///< largest memory of this process so far
+  bool interrupted = false;                      ///< by SessionOptions::interrupted
+  std::exception_ptr failure;                    ///< that ended the run; null: none
 
   Trajectory trajectory() const;
 };
 
-/// Opens the data from the beginning; called again for a second pass.
+/// Opens the data from the beginning; called again for the second pass.
 using OpenSource = std::function<std::unique_ptr<ScanSource>()>;
 
 /// How many of `source`'s sweeps `start` and `count` leave, when that is known.

@@ -24,8 +24,9 @@ struct RegisteredSweep {
 
 /// The second pass begins: everything before is forgotten.
 struct Restart {
-  std::size_t after_sweeps;     ///< registered in the first pass
-  double elevation_offset_deg;  ///< found there, applied from the first sweep of the second pass on
+  std::size_t after_sweeps = 0;       ///< registered in the first pass
+  double elevation_offset_deg = 0;    ///< applied from the first sweep of the second pass on
+  double beam_elevation_rms_deg = 0;  ///< of the corrections of single beams, likewise
 };
 
 /// The same sweeps, registered without times and with them, their own or those of order_times(): with them, raw points

@@ -1,5 +1,7 @@
 """Poses, maps and sweeps in files."""
 
+import threading
+
 import numpy as np
 import pytest
 from conftest import SWEEPS
@@ -59,3 +61,26 @@ def test_a_bad_sweep_raises_or_is_skipped(tmp_path, drive):
     with pytest.raises(rilo.IoError, match="000001.bin"):
         list(rilo.open(tmp_path, bin_fields="x,y,z"))
     assert len(list(rilo.open(tmp_path, bin_fields="x,y,z", skip_bad_sweeps=True))) == 2
+
+
+def test_a_source_is_closed_by_with_and_by_close(recording):
+    with rilo.open(recording) as source:
+        sweep = next(source)
+        assert repr(source).startswith("<rilo.ScanSource /")
+    assert len(sweep.points) == len(sweep) > 0  # what was read stays
+    assert repr(source) == "<rilo.ScanSource, closed>"
+    source.close()
+    for asked in (lambda: next(source), lambda: len(source), lambda: source.kind, lambda: source.skip(1)):
+        with pytest.raises(ValueError, match="the ScanSource is closed"):
+            asked()
+
+
+def test_threads_share_a_source(recording):
+    source = rilo.open(recording)
+    taken = []
+    readers = [threading.Thread(target=lambda: taken.extend(sweep.stamp_ns for sweep in source)) for _ in range(3)]
+    for reader in readers:
+        reader.start()
+    for reader in readers:
+        reader.join()
+    assert sorted(taken) == [sweep.stamp_ns for sweep in rilo.open(recording)]

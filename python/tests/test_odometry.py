@@ -85,3 +85,27 @@ def test_threads_go_on_while_registering(drive):
     done.set()
     other.join()
     assert ticks > SWEEPS
+
+
+def test_threads_that_share_an_odometry_wait_for_each_other(drive):
+    odometry = rilo.Odometry()
+    done = threading.Event()
+    seen = []
+
+    def write():
+        for points, times, *_ in drive:
+            odometry.register_frame(points, times)
+
+    def read():
+        while not done.is_set():
+            seen.append((len(odometry.trajectory), len(odometry.local_map()), len(odometry.last_map_points())))
+
+    writers, reader = [threading.Thread(target=write) for _ in range(3)], threading.Thread(target=read)
+    for thread in (reader, *writers):
+        thread.start()
+    for thread in writers:
+        thread.join()
+    done.set()
+    reader.join()
+    assert len(odometry) == 3 * SWEEPS and np.all(np.diff(odometry.stamps_ns) > 0)
+    assert seen == sorted(seen, key=lambda figures: figures[0])

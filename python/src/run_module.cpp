@@ -23,6 +23,7 @@ struct PythonRun {
   SessionResult session;
   std::vector<std::string> warnings;
   std::vector<Eigen::Vector3f> map;
+  py::list results;  // of the session, as Python sees them: made once
 };
 
 /// Python's callables, each None or called with Python's lock, which the run does without.
@@ -100,6 +101,7 @@ PythonRun run(const std::filesystem::path& source, const SourceOptions& source_o
   }
   if (PyErr_Occurred() != nullptr) throw py::error_already_set();
   if (done.session.failure) std::rethrow_exception(done.session.failure);
+  done.results = py::cast(done.session.results);
   if (map_voxel_m) done.map = map.cloud(false).points;
   return done;
 }
@@ -177,7 +179,7 @@ void add_run(py::module_& module) {
           },
           "Times that the poses refer to, (N,) int64, ns.")
       .def_property_readonly(
-          "results", [](const PythonRun& run) { return run.session.results; }, "SweepResult of every sweep.")
+          "results", [](const PythonRun& run) { return run.results; }, "SweepResult of every sweep.")
       .def_property_readonly(
           "indices", [](const PythonRun& run) { return run.session.indices; },
           "Place of every sweep in the data; skipped sweeps leave holes.")

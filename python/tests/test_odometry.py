@@ -16,6 +16,8 @@ def test_simulated_sweeps_are_float32_arrays(drive):
     assert times.dtype == np.float32 and times.shape == (len(points),)
     assert stamp == 300_000_000
     assert pose.shape == (4, 4)
+    iterated = list(rilo.Simulator(sensor="vlp16", sweeps=2, start_s=4.0))
+    assert len(iterated) == 2 and np.array_equal(iterated[1][0], drive[1][0]) and iterated[1][2] == drive[1][2]
     with pytest.raises(IndexError):
         rilo.Simulator(sweeps=2).sweep(2)
     with pytest.raises(ValueError, match="sensor: got 'hdl32'; expected hdl64"):

@@ -1,8 +1,10 @@
 // Odometry and its configuration.
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <pybind11/stl.h>
+#include <span>
 #include <string>
 
 #include "arrays.hpp"
@@ -43,10 +45,37 @@ RawTimes raw_times_of(const py::object& object, std::size_t points) {
     raw.floats.assign(numbers.data(), numbers.data() + numbers.size());
   } else {
     raw.type = array.itemsize() <= 4 ? ScalarType::kUint32 : ScalarType::kInt64;
-    const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
-    raw.integers.assign(numbers.data(), numbers.data() + numbers.size());
+    raw.integers = integers_of(array, "timestamps");
   }
   return raw;
+}
+
+/// A stamp of any kind of integer.
+std::optional<std::int64_t> stamp_of(const py::object& object) {
+  if (object.is_none()) return std::nullopt;
+  if (PyIndex_Check(object.ptr()) == 0) {
+    refuse_type("stamp_ns", object, "a whole number of ns, or None. Of seconds: round(seconds * 1e9)");
+  }
+  try {
+    return object.cast<std::int64_t>();
+  } catch (const py::cast_error&) {
+    throw py::value_error("stamp_ns: got " + py::str(object).cast<std::string>() + "; expected ns that fit 64 bits");
+  }
+}
+
+// As in the readers: farther from the stamp, times are in another unit or of a clock.
+constexpr float kFarthestFromStampS = 2.5F;
+
+/// @throws ValueError when a point that was measured has a time that is not one of a sweep.
+void check_seconds(std::span<const float> times_s, std::span<const Eigen::Vector3f> points) {
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    if (!std::isfinite(times_s[i]) || std::abs(times_s[i]) <= kFarthestFromStampS) continue;
+    if (!points[i].allFinite() || points[i] == Eigen::Vector3f::Zero()) continue;
+    throw py::value_error(
+        text_of("times_s: got %g at index %zu; expected seconds from stamp_ns, at most %g. Times in other units, of a "
+                "clock, or with single wrong ones: register_frame(points, timestamps)",
+                static_cast<double>(times_s[i]), i, static_cast<double>(kFarthestFromStampS)));
+  }
 }
 
 /// An odometry and what its calls leave unsaid. Any thread may call it.
@@ -55,22 +84,25 @@ class PythonOdometry {
   PythonOdometry(const py::object& config, const py::object& settings)
       : config_(config_of(config, settings)), odometry_(config_, monotonic_ns) {}
 
-  SweepResult register_sweep(const py::object& points, const py::object& times_s, std::optional<std::int64_t> stamp_ns,
+  SweepResult register_sweep(const py::object& points, const py::object& times_s, const py::object& stamp_ns,
                              const py::object& rings) {
+    const std::optional<std::int64_t> stamp = stamp_of(stamp_ns);
     const auto taken = points_of(points);
     std::optional<Column<float>> times;
     std::optional<Column<std::uint16_t>> beams;
     SweepView sweep;
     sweep.points = taken.values;
     if (!times_s.is_none()) sweep.times_s = times.emplace(times_of(times_s, taken.values.size())).values;
+    check_seconds(sweep.times_s, sweep.points);
     if (!rings.is_none()) sweep.rings = beams.emplace(rings_of(rings, taken.values.size())).values;
     const Held held(mutex_);
-    sweep.stamp_ns = stamp_ns.value_or(next_stamp_ns());
+    sweep.stamp_ns = stamp.value_or(next_stamp_ns());
     return registered(sweep);
   }
 
-  SweepResult register_frame(const py::object& points, const py::object& timestamps,
-                             std::optional<std::int64_t> stamp_ns, const std::string& unit) {
+  SweepResult register_frame(const py::object& points, const py::object& timestamps, const py::object& stamp_ns,
+                             const std::string& unit) {
+    const std::optional<std::int64_t> stamp = stamp_of(stamp_ns);
     const auto taken = points_of(points);
     const auto parsed = parse_point_time_unit(unit);
     if (!parsed) {
@@ -81,7 +113,7 @@ class PythonOdometry {
     const Held held(mutex_);
     SweepView view;
     view.points = taken.values;
-    view.stamp_ns = stamp_ns.value_or(next_stamp_ns());
+    view.stamp_ns = stamp.value_or(next_stamp_ns());
     if (!raw) return registered(view);
     if (!decoder_ || *parsed != unit_) {
       unit_ = *parsed;
@@ -94,7 +126,7 @@ class PythonOdometry {
     sweep.points.assign(taken.values.begin(), taken.values.end());
     sweep.stamp_ns = view.stamp_ns;
     decoder_->decode(*raw, "register_frame", sweep);
-    if (stamp_ns) sweep.stamp_ns = *stamp_ns;
+    if (stamp) sweep.stamp_ns = *stamp;
     return registered(sweep);
   }
 
@@ -190,11 +222,13 @@ constexpr const char* kRegisterDoc = R"(Registers one sweep and returns its Swee
 
 points:   (N, 3) or (N, 4), float32 or float64, m, sensor frame (x forward, y left, z up); a fourth column (intensity)
           is ignored. (N, 3) float32 in C order is used in place, anything else is copied. NaN points are dropped.
-times_s:  (N,) float32 or float64, s from stamp_ns, for motion compensation. None: none, or compensated already.
+times_s:  (N,) float32 or float64, s from stamp_ns (at most 2.5), for motion compensation. None: none, or compensated
+          already.
 stamp_ns: time that times_s count from, ns. None: 0.1 s after the sweep before.
 rings:    (N,) integers, beam index; needed for the calibration of single beams only.
 
-Raises ValueError for arrays of another shape or type. Bad data is not an error: see SweepResult.status.)";
+Raises ValueError for arrays of another shape or type and for times that are no seconds of a sweep, TypeError for a
+stamp that is no integer. Bad points are not an error: see SweepResult.status.)";
 
 constexpr const char* kRegisterFrameDoc = R"(Registers one sweep whose timestamps are as the driver gives them.
 

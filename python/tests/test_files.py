@@ -31,6 +31,26 @@ def test_poses_and_maps_go_to_files_and_back(tmp_path, run):
         rilo.write_map(tmp_path / "map.xyz", odometry.local_map())
 
 
+def test_poses_that_are_none_are_not_written(tmp_path, run):
+    poses, stamps = run[0].trajectory, run[0].stamps_ns
+    scaled, mirrored, empty, broken = poses.copy(), poses.copy(), poses.copy(), poses.copy()
+    scaled[2, :3, :3] *= 2
+    mirrored[2, :3, 0] *= -1
+    empty[2] = 0
+    broken[2, 0, 3] = np.nan
+    file = tmp_path / "poses.txt"
+    for bad, told in ((scaled, "rigid transform"), (mirrored, "rigid transform"), (empty, "rigid"), (broken, "finite")):
+        for form in "tum", "euroc", "kitti":
+            with pytest.raises(ValueError, match=f"poses: pose 2 is not .*{told}"):
+                rilo.write_poses(file, bad, stamps, form)
+        with pytest.raises(ValueError, match=f"estimate: pose 2 is not .*{told}"):
+            rilo.evaluate(poses, bad)
+    with pytest.raises(ValueError, match=r"stamps_ns: got 92233720369\d+ at index 0"):
+        rilo.write_poses(file, poses, stamps.astype(np.uint64) + np.uint64(2**63))
+    assert not file.exists()
+    rilo.write_poses(file, poses.astype(np.float32), stamps)
+
+
 def test_files_are_read(tmp_path, drive):
     for i, (points, *_) in enumerate(drive[:3]):
         np.hstack([points, np.ones((len(points), 1), np.float32)]).tofile(tmp_path / f"{i:06d}.bin")

@@ -123,6 +123,7 @@ void OdometryNode::warn(const std::string& text) { ROS_WARN_STREAM(text); }
 
 void OdometryNode::fail(const std::string& why) {
   ROS_FATAL_STREAM(why);
+  failed_ = true;
   ros::requestShutdown();
 }
 

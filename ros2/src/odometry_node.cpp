@@ -259,6 +259,7 @@ void OdometryNode::warn(const std::string& text) { RCLCPP_WARN(get_logger(), "%s
 
 void OdometryNode::fail(const std::string& why) {
   RCLCPP_FATAL(get_logger(), "%s", why.c_str());
+  failed_ = true;
   rclcpp::shutdown(get_node_base_interface()->get_context(), why);
 }
 

@@ -56,6 +56,8 @@ OdometryNode::OdometryNode(const NodeOptions& options) : odometry_(options, node
   timer_ = node_.createWallTimer(ros::WallDuration(options.diagnostic_period_s),
                                  [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
   advertise();
+  // From now on: a bag may have a static transform once, at its beginning.
+  if (!options.base_frame.empty() && options.base_to_lidar.empty()) transforms_ = std::make_unique<TransformSource>();
   odometry_.start();
 }
 
@@ -113,7 +115,6 @@ bool OdometryNode::path_wanted() const { return path_publisher_.getNumSubscriber
 bool OdometryNode::local_map_wanted() const { return map_publisher_.getNumSubscribers() > 0; }
 
 std::optional<SE3> OdometryNode::look_up(const std::string& base_frame, const std::string& lidar_frame) {
-  if (!transforms_) transforms_ = std::make_unique<TransformSource>();
   std::optional<SE3> T = transforms_->find(base_frame, lidar_frame);
   if (T) transforms_.reset();
   return T;

@@ -54,7 +54,7 @@ class OdometryNode final : private NodeOutput {
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
   tf2_ros::TransformBroadcaster broadcaster_;
-  std::unique_ptr<TransformSource> transforms_;  // while one is looked up
+  std::unique_ptr<TransformSource> transforms_;  // until one is found
   std::atomic<bool> failed_{false};
   LiveOdometry odometry_;
   diagnostic_updater::Updater diagnostics_;

@@ -1,7 +1,7 @@
 """Frames and TF."""
 
 import copy
-from contextlib import contextmanager
+import time
 
 import numpy as np
 import rospy
@@ -9,6 +9,7 @@ from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 
 from driven_node import AT_ONCE, connected_node, poses_of, publish, transforms_of, wait_figure
+from ros_system import wait_for
 
 EXTRINSIC = [1.2, -0.3, 1.7, 0.4, 0.02, -0.01]  # x, y, z, yaw, pitch, roll of the LiDAR on the base
 
@@ -49,9 +50,8 @@ def test_tf_of_the_base_inverted_and_with_other_names(topics, drive):
     assert topics.odometry.messages[0].header.frame_id == "lidar_odom"
 
 
-@contextmanager
 def static_extrinsic(parent, child):
-    """EXTRINSIC on /tf_static, as a quaternion."""
+    """EXTRINSIC as it is on /tf_static, with a quaternion."""
     pose = extrinsic_matrix()
     transform = TransformStamped()
     transform.header.frame_id, transform.child_frame_id = parent, child
@@ -60,23 +60,24 @@ def static_extrinsic(parent, child):
     vector = np.array([pose[2, 1] - pose[1, 2], pose[0, 2] - pose[2, 0], pose[1, 0] - pose[0, 1]]) / (4 * w)
     rotation = transform.transform.rotation
     rotation.x, rotation.y, rotation.z, rotation.w = *vector, w
-    publisher = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
-    publisher.publish(TFMessage([transform]))
-    try:
-        yield
-    finally:
-        publisher.unregister()
+    return TFMessage([transform])
 
 
 def test_the_base_is_found_in_tf_also_by_names_with_a_slash(topics, drive):
-    """As old drivers and launch files write them; tf2 looks up none of these."""
+    """As old drivers and launch files write them; tf2 looks up none of these. The transform comes once, before the
+    sweeps, and from a publisher that does not latch it, as in a bag."""
     slashed = [copy.deepcopy(sweep) for sweep in drive.sweeps[:3]]
     for sweep in slashed:
         sweep.header.frame_id = "/velodyne"
-    with static_extrinsic("base_link", "velodyne"), connected_node(topics, {**AT_ONCE, "base_frame": "/base_link"}):
+    static = rospy.Publisher("/tf_static", TFMessage, queue_size=1)
+    with connected_node(topics, {**AT_ONCE, "base_frame": "/base_link"}):
         topics.tf.wait_connected()
+        wait_for(lambda: static.get_num_connections() > 0, "the node's subscription to /tf_static")
+        static.publish(static_extrinsic("base_link", "velodyne"))
+        time.sleep(0.2)  # on its way
         publish(topics, slashed)
         topics.tf.wait(3)
+    static.unregister()
     extrinsic = extrinsic_matrix()
     expected = extrinsic @ drive.offline.poses[:3] @ np.linalg.inv(extrinsic)
     stamped, transforms = transforms_of(topics.tf.messages, "base_link")

@@ -101,6 +101,10 @@ OdometryNode::OdometryNode(const rclcpp::NodeOptions& options)
   advertise();
   parameters_callback_ = add_on_set_parameters_callback(
       [this](const std::vector<rclcpp::Parameter>& parameters) { return on_parameters(parameters); });
+  // From now on: a bag may have a static transform once, at its beginning.
+  if (!get_parameter("base_frame").as_string().empty() && get_parameter("base_to_lidar").as_double_array().empty()) {
+    transforms_ = std::make_unique<TransformSource>(*this);
+  }
   odometry_.start();
   subscribe();
 }
@@ -249,7 +253,6 @@ bool OdometryNode::path_wanted() const { return path_publisher_->get_subscriptio
 bool OdometryNode::local_map_wanted() const { return map_publisher_->get_subscription_count() > 0; }
 
 std::optional<SE3> OdometryNode::look_up(const std::string& base_frame, const std::string& lidar_frame) {
-  if (!transforms_) transforms_ = std::make_unique<TransformSource>(*this);
   std::optional<SE3> T = transforms_->find(base_frame, lidar_frame);
   if (T) transforms_.reset();
   return T;

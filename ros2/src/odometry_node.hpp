@@ -59,7 +59,7 @@ class OdometryNode final : public rclcpp::Node, private NodeOutput {
   void fail(const std::string& why) override;
 
   tf2_ros::TransformBroadcaster broadcaster_;
-  std::unique_ptr<TransformSource> transforms_;  // while one is looked up
+  std::unique_ptr<TransformSource> transforms_;  // until one is found
   std::atomic<bool> failed_{false};
   LiveOdometry odometry_;
 

@@ -109,7 +109,7 @@ def test_what_is_no_path_is_said(recording):
 
 def test_results_of_a_run_are_there_once(recording):
     run = rilo.run(recording, count=3)
-    assert run.results is run.results
+    assert run.results is run.results and run.map is run.map and run.map.shape == (0, 3)
     for copied in (copy.copy(run.results[2]), copy.deepcopy(run.results)[2]):
         assert np.array_equal(copied.pose, run.trajectory[2]) and copied is not run.results[2]
 

@@ -31,6 +31,15 @@ std::unique_ptr<Ros> to_ros(Message&& message) {
   return to;
 }
 
+// For topics whose last message waits for those who come late: within a process there is no such thing, and Humble
+// refuses the subscription.
+template <typename Options>
+Options between_processes() {
+  Options options;
+  options.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
+  return options;
+}
+
 rclcpp::ExecutorOptions executor_of(const rclcpp::NodeOptions& node) {
   rclcpp::ExecutorOptions options;
   options.context = node.context();
@@ -75,7 +84,10 @@ diagnostic_msgs::msg::DiagnosticStatus to_ros_status(const StatusMessage& report
 
 class TransformSource {
  public:
-  explicit TransformSource(rclcpp::Node& node) : buffer_(node.get_clock()), listener_(buffer_, &node) {}
+  explicit TransformSource(rclcpp::Node& node)
+      : buffer_(node.get_clock()),
+        listener_(buffer_, &node, kOwnThread, tf2_ros::DynamicListenerQoS(), tf2_ros::StaticListenerQoS(),
+                  rclcpp::SubscriptionOptions(), between_processes<rclcpp::SubscriptionOptions>()) {}
 
   std::optional<SE3> find(const std::string& base_frame, const std::string& lidar_frame) const {
     std::string why_not;  // asked for, it is not printed
@@ -89,8 +101,9 @@ class TransformSource {
   }
 
  private:
+  static constexpr bool kOwnThread = true;
   tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;  // with a thread of its own
+  tf2_ros::TransformListener listener_;
 };
 
 OdometryNode::OdometryNode(const rclcpp::NodeOptions& options)
@@ -120,12 +133,10 @@ void OdometryNode::advertise() {
   using std_srvs::srv::Trigger;
   odometry_publisher_ = create_publisher<nav_msgs::msg::Odometry>("odometry", rclcpp::QoS(100));
   diagnostics_publisher_ = create_publisher<diagnostic_msgs::msg::DiagnosticArray>("/diagnostics", rclcpp::QoS(10));
-  // Who comes late gets the last one. Within a process there is no such thing.
-  rclcpp::PublisherOptions between_processes;
-  between_processes.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
   const auto latched = rclcpp::QoS(1).transient_local();
-  path_publisher_ = create_publisher<nav_msgs::msg::Path>("path", latched, between_processes);
-  map_publisher_ = create_publisher<PointCloud2>("local_map", latched, between_processes);
+  const auto options = between_processes<rclcpp::PublisherOptions>();
+  path_publisher_ = create_publisher<nav_msgs::msg::Path>("path", latched, options);
+  map_publisher_ = create_publisher<PointCloud2>("local_map", latched, options);
 
   services_.push_back(create_service<Trigger>(
       "~/reset", [this](Trigger::Request::SharedPtr /*request*/, Trigger::Response::SharedPtr response) {

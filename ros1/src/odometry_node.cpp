@@ -3,7 +3,6 @@
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 #include <utility>
@@ -40,7 +39,7 @@ class TransformSource {
  public:
   std::optional<SE3> find(const std::string& base_frame, const std::string& lidar_frame) const {
     if (!buffer_.canTransform(base_frame, lidar_frame, ros::Time(0))) return std::nullopt;
-    return tf2::transformToEigen(buffer_.lookupTransform(base_frame, lidar_frame, ros::Time(0)));
+    return Fields::pose_of(buffer_.lookupTransform(base_frame, lidar_frame, ros::Time(0)).transform);
   }
 
  private:

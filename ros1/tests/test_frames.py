@@ -51,7 +51,7 @@ def test_tf_of_the_base_inverted_and_with_other_names(topics, drive):
 
 
 def static_extrinsic(parent, child):
-    """EXTRINSIC as it is on /tf_static, with a quaternion."""
+    """EXTRINSIC as it is on /tf_static, with a quaternion that has not quite length 1, as those of few digits."""
     pose = extrinsic_matrix()
     transform = TransformStamped()
     transform.header.frame_id, transform.child_frame_id = parent, child
@@ -59,7 +59,7 @@ def static_extrinsic(parent, child):
     w = np.sqrt(1 + np.trace(pose[:3, :3])) / 2
     vector = np.array([pose[2, 1] - pose[1, 2], pose[0, 2] - pose[2, 0], pose[1, 0] - pose[0, 1]]) / (4 * w)
     rotation = transform.transform.rotation
-    rotation.x, rotation.y, rotation.z, rotation.w = *vector, w
+    rotation.x, rotation.y, rotation.z, rotation.w = 1.004 * np.array([*vector, w])
     return TFMessage([transform])
 
 

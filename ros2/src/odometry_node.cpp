@@ -92,12 +92,7 @@ class TransformSource {
   std::optional<SE3> find(const std::string& base_frame, const std::string& lidar_frame) const {
     std::string why_not;  // asked for, it is not printed
     if (!buffer_.canTransform(base_frame, lidar_frame, tf2::TimePointZero, &why_not)) return std::nullopt;
-    const auto found = buffer_.lookupTransform(base_frame, lidar_frame, tf2::TimePointZero).transform;
-    const Eigen::Quaterniond q(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z);
-    SE3 T = SE3::Identity();
-    T.linear() = q.normalized().toRotationMatrix();
-    T.translation() << found.translation.x, found.translation.y, found.translation.z;
-    return T;
+    return Fields::pose_of(buffer_.lookupTransform(base_frame, lidar_frame, tf2::TimePointZero).transform);
   }
 
  private:

@@ -28,7 +28,7 @@ command -v npm >/dev/null || viewer+=(nodejs npm)
 tests=(git libgtest-dev libgmock-dev libbenchmark-dev pkg-config python3-dev python3-numpy python3-pytest pybind11-dev)
 slurm=(slurmctld slurmd slurm-client munge)
 # The ROS 1 node and its tests; 45 MB.
-ros1=(libroscpp-dev libtopic-tools-dev libtf2-ros-dev libtf2-eigen-dev libdiagnostic-updater-dev libnav-msgs-dev
+ros1=(libroscpp-dev libtopic-tools-dev libtf2-ros-dev libdiagnostic-updater-dev libnav-msgs-dev
       libsensor-msgs-dev libgeometry-msgs-dev libstd-srvs-dev python3-gencpp python3-genpy ros-geometry-msgs
       ros-std-msgs python3-roslaunch python3-rosbag python3-nav-msgs python3-sensor-msgs python3-diagnostic-msgs
       python3-tf2-msgs python3-std-srvs)

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
+#include <system_error>
 #include <vector>
 
 #include "rilo/odometry/odometry.hpp"
@@ -35,8 +37,13 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(argv[1])) {
+  std::error_code cannot_be_read;  // then there are no entries
+  for (const auto& entry : std::filesystem::directory_iterator(argv[1], cannot_be_read)) {
     if (entry.path().extension() == ".bin") files.push_back(entry.path());
+  }
+  if (files.empty()) {
+    std::fprintf(stderr, "own_points: no .bin files in %s\n", argv[1]);
+    return 1;
   }
   std::sort(files.begin(), files.end());
 
@@ -51,6 +58,7 @@ int main(int argc, char** argv) {
   }
 
   std::ofstream poses(argv[2]);
+  poses << std::fixed << std::setprecision(9);  // the usual six digits cannot hold a stamp
   for (const rilo::StampedPose& pose : odometry.trajectory()) {
     const Eigen::Vector3d p = pose.T_odom_lidar.translation();
     const Eigen::Quaterniond q(pose.T_odom_lidar.rotation());

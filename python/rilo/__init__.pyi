@@ -1,6 +1,6 @@
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, Literal, Optional, Union, overload
+from typing import Any, Literal, Optional, SupportsIndex, TypedDict, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,8 @@ _Path = Union[str, "os.PathLike[str]"]
 _Config = Union[None, str, "os.PathLike[str]", Mapping[str, Any]]
 _Settings = Union[None, Mapping[str, Any], Sequence[str]]
 _TimeUnit = Literal["infer", "s", "ms", "us", "ns", "fraction"]
+
+_SimulatedSweep = tuple[npt.NDArray[np.float32], Optional[npt.NDArray[np.float32]], int, npt.NDArray[np.float64]]
 
 class SweepResult:
     @property
@@ -54,6 +56,8 @@ class SweepResult:
     def relative_eigenvalues(self) -> list[float]: ...
     @property
     def total_ms(self) -> float: ...
+    def __copy__(self) -> "SweepResult": ...
+    def __deepcopy__(self, memo: dict[int, Any]) -> "SweepResult": ...
 
 class Odometry:
     def __init__(self, config: _Config = None, settings: _Settings = None) -> None: ...
@@ -61,14 +65,14 @@ class Odometry:
         self,
         points: npt.ArrayLike,
         times_s: Optional[npt.ArrayLike] = None,
-        stamp_ns: Optional[int] = None,
+        stamp_ns: Optional[SupportsIndex] = None,
         rings: Optional[npt.ArrayLike] = None,
     ) -> SweepResult: ...
     def register_frame(
         self,
         points: npt.ArrayLike,
         timestamps: Optional[npt.ArrayLike] = None,
-        stamp_ns: Optional[int] = None,
+        stamp_ns: Optional[SupportsIndex] = None,
         point_time_unit: _TimeUnit = "infer",
     ) -> SweepResult: ...
     @property
@@ -100,6 +104,9 @@ class ScanSource:
     def __iter__(self) -> Iterator[Sweep]: ...
     def __next__(self) -> Sweep: ...
     def __len__(self) -> int: ...
+    def __enter__(self) -> "ScanSource": ...
+    def __exit__(self, *exception: object) -> None: ...
+    def close(self) -> None: ...
     def skip(self, count: int) -> int: ...
     @property
     def kind(self) -> str: ...
@@ -147,9 +154,9 @@ class Simulator:
         deskewed: bool = False,
     ) -> None: ...
     def __len__(self) -> int: ...
-    def sweep(
-        self, index: int
-    ) -> tuple[npt.NDArray[np.float32], Optional[npt.NDArray[np.float32]], int, npt.NDArray[np.float64]]: ...
+    def __iter__(self) -> Iterator[_SimulatedSweep]: ...
+    def __getitem__(self, index: int) -> _SimulatedSweep: ...
+    def sweep(self, index: int) -> _SimulatedSweep: ...
 
 def open(
     path: _Path,
@@ -190,7 +197,17 @@ def run(
     rate: float = 10.0,
     skip_bad_sweeps: bool = False,
 ) -> RunResult: ...
-def evaluate(truth: npt.ArrayLike, estimate: npt.ArrayLike) -> dict[str, Optional[float]]: ...
+
+class _Errors(TypedDict):
+    poses: int
+    path_m: float
+    t_rel_pct: Optional[float]
+    r_rel_deg_per_100m: Optional[float]
+    ape_rmse_m: float
+    ape_unaligned_rmse_m: float
+    end_error_m: float
+
+def evaluate(truth: npt.ArrayLike, estimate: npt.ArrayLike) -> _Errors: ...
 def dump_config(config: _Config = None, settings: _Settings = None) -> str: ...
 def write_poses(
     path: _Path,

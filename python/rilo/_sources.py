@@ -1,7 +1,9 @@
 """Opening data and running them whole: the keywords of both are the same."""
 
+import os
 import sys
 import time
+from numbers import Integral, Real
 
 from ._rilo import _open, _run, _SourceOptions
 
@@ -20,11 +22,38 @@ _DEFAULTS = {
 }
 
 
+def _refuse(name, value, expected):
+    raise TypeError(f"{name}: got {value!r} of type {type(value).__name__}; expected {expected}")
+
+
+def _checked(name, value):
+    """An option as its default is: text, a number or a bool; sensor_file is a path, too."""
+    default = _DEFAULTS[name]
+    if isinstance(default, str):
+        value = os.fspath(value) if name == "sensor_file" and hasattr(value, "__fspath__") else value
+        return value if isinstance(value, str) else _refuse(name, value, "text")
+    if isinstance(default, bool):
+        return bool(value) if value in (True, False) else _refuse(name, value, "True or False")
+    return value if isinstance(value, Real) else _refuse(name, value, "a number")
+
+
 def _options(given):
     unknown = set(given) - set(_DEFAULTS)
     if unknown:
         raise TypeError(f"unknown option {sorted(unknown)[0]!r}; known: {', '.join(_DEFAULTS)}")
-    return _SourceOptions(**{**_DEFAULTS, **given})
+    return _SourceOptions(**{**_DEFAULTS, **{name: _checked(name, value) for name, value in given.items()}})
+
+
+def _path(name, value):
+    return value if isinstance(value, (str, bytes, os.PathLike)) else _refuse(name, value, "a path")
+
+
+def _whole_number(name, value):
+    if not isinstance(value, Integral):
+        _refuse(name, value, "a whole number")
+    if value < 0:
+        raise ValueError(f"{name}: got {value}; expected a number from 0")
+    return value
 
 
 def open(path, **options):
@@ -51,7 +80,7 @@ def open(path, **options):
 
     Raises IoError when the data cannot be read, ValueError for an option that makes no sense.
     """
-    return _open(path, _options(options))
+    return _open(_path("path", path), _options(options))
 
 
 class _Progress:
@@ -104,6 +133,11 @@ def run(
     Ctrl-C ends the run after the sweep in work and raises KeyboardInterrupt; an exception of a callable ends it, too.
     Raises IoError, ConfigError and ValueError as open() and Odometry do.
     """
+    for name, called in {"on_sweep": on_sweep, "on_restart": on_restart}.items():
+        if called is not None and not callable(called):
+            _refuse(name, called, "a function or None")
+    if map_voxel_m is not None and not isinstance(map_voxel_m, Real):
+        _refuse("map_voxel_m", map_voxel_m, "a number or None")
     line = _Progress() if progress else None
 
     def restarted(after_sweeps, offset_deg):
@@ -112,19 +146,20 @@ def run(
         if on_restart:
             on_restart(after_sweeps, offset_deg)
 
-    result = _run(
-        source,
-        _options(options),
-        config=config,
-        settings=settings,
-        start=start,
-        count=count,
-        one_pass=one_pass,
-        map_voxel_m=map_voxel_m,
-        on_sweep=on_sweep,
-        on_restart=restarted,
-        on_progress=line,
-    )
-    if line:
-        print(file=sys.stderr)
-    return result
+    try:
+        return _run(
+            _path("source", source),
+            _options(options),
+            config=config,
+            settings=settings,
+            start=_whole_number("start", start),
+            count=_whole_number("count", count),
+            one_pass=one_pass,
+            map_voxel_m=map_voxel_m,
+            on_sweep=on_sweep,
+            on_restart=restarted,
+            on_progress=line,
+        )
+    finally:
+        if line:
+            print(file=sys.stderr)

@@ -70,13 +70,40 @@ Column<Value> column_of(py::array array, std::vector<Value>&& values) {
   return column;
 }
 
+// The readers' tolerance: files and float32 have 7 digits.
+constexpr double kRigidTolerance = 1e-3;
+
+const char* fault_of(const SE3& pose) {
+  if (!pose.matrix().allFinite()) return "is not finite";
+  const Eigen::Matrix3d R = pose.linear();
+  const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return off > kRigidTolerance || R.determinant() < 0 ? "is not a rigid transform" : nullptr;
+}
+
 }  // namespace
+
+void refuse_type(const std::string& name, const py::handle& value, const std::string& expected) {
+  throw py::type_error(name + ": got " + py::repr(value).cast<std::string>() + " of type " +
+                       py::str(py::type::of(value).attr("__name__")).cast<std::string>() + "; expected " + expected);
+}
 
 std::string description_of(const py::handle& object) {
   if (!py::isinstance<py::array>(object))
     return "an object of type " + py::str(py::type::of(object).attr("__name__")).cast<std::string>();
   const py::object dtype = object.attr("dtype");
   return "shape " + py::str(object.attr("shape")).cast<std::string>() + ", " + py::str(dtype).cast<std::string>();
+}
+
+std::vector<std::int64_t> integers_of(const py::array& array, const std::string& name) {
+  const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
+  std::vector<std::int64_t> integers(numbers.data(), numbers.data() + numbers.size());
+  const bool may_wrap = array.dtype().kind() == 'u' && array.itemsize() == sizeof(std::uint64_t);
+  for (std::size_t i = 0; may_wrap && i < integers.size(); ++i) {
+    if (integers[i] >= 0) continue;
+    throw py::value_error(name + ": got " + std::to_string(static_cast<std::uint64_t>(integers[i])) + " at index " +
+                          std::to_string(i) + "; expected numbers below 2^63");
+  }
+  return integers;
 }
 
 py::array array_of(const py::object& object, const char* name) {
@@ -132,10 +159,10 @@ Column<std::uint16_t> rings_of(const py::object& object, std::size_t points) {
   if (holds<std::uint16_t>(array) && is_dense(array)) return column_in_place<std::uint16_t>(std::move(array));
   const char kind = array.dtype().kind();
   if (kind != 'i' && kind != 'u') reject("rings", kExpected, array);
-  const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
+  const std::vector<std::int64_t> numbers = integers_of(array, "rings");
   std::vector<std::uint16_t> rings(points);
   for (std::size_t i = 0; i < points; ++i) {
-    const std::int64_t ring = numbers.data()[i];
+    const std::int64_t ring = numbers[i];
     if (ring < 0 || ring > 65535) {
       throw py::value_error("rings: got " + std::to_string(ring) + " at index " + std::to_string(i) + "; expected " +
                             kExpected);
@@ -151,8 +178,7 @@ std::vector<std::int64_t> stamps_of(const py::object& object, std::size_t poses)
   if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != poses || (kind != 'i' && kind != 'u')) {
     reject("stamps_ns", "shape (" + std::to_string(poses) + ",), integers", array);
   }
-  const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
-  return {numbers.data(), numbers.data() + numbers.size()};
+  return integers_of(array, "stamps_ns");
 }
 
 std::vector<SE3> poses_of(const py::object& object, const char* name) {
@@ -170,6 +196,9 @@ std::vector<SE3> poses_of(const py::object& object, const char* name) {
       for (py::ssize_t column = 0; column < 4; ++column) {
         poses[static_cast<std::size_t>(i)](row, column) = values(i, row, column);
       }
+    }
+    if (const char* fault = fault_of(poses[static_cast<std::size_t>(i)])) {
+      throw py::value_error(std::string(name) + ": pose " + std::to_string(i) + " " + fault);
     }
   }
   return poses;

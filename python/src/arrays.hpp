@@ -36,11 +36,18 @@ Column<float> times_of(const py::object& object, std::size_t points);
 /// Beam indices, (N,) of any integer type, 0 … 65535. @throws ValueError saying what came instead.
 Column<std::uint16_t> rings_of(const py::object& object, std::size_t points);
 
+/// Any integers as int64. @throws ValueError for one that is none.
+std::vector<std::int64_t> integers_of(const py::array& array, const std::string& name);
+
 /// (N,) int64. @throws ValueError saying what came instead.
 std::vector<std::int64_t> stamps_of(const py::object& object, std::size_t poses);
 
-/// The poses of an (N, 4, 4) or (N, 3, 4) array. @throws ValueError saying what came instead.
+/// The poses of an (N, 4, 4) or (N, 3, 4) array. @throws ValueError saying what came instead: another shape, a pose
+/// that is not finite, or one that is not a rigid transform.
 std::vector<SE3> poses_of(const py::object& object, const char* name);
+
+/// @throws TypeError "name: got 1.5 of type float; expected …".
+[[noreturn]] void refuse_type(const std::string& name, const py::handle& value, const std::string& expected);
 
 /// "shape (3, 100), int64", or the type of what is not an array.
 std::string description_of(const py::handle& object);

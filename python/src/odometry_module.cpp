@@ -1,10 +1,14 @@
 // Odometry and its configuration.
 #include <chrono>
+#include <cmath>
+#include <mutex>
 #include <optional>
 #include <pybind11/stl.h>
+#include <span>
 #include <string>
 
 #include "arrays.hpp"
+#include "held.hpp"
 #include "modules.hpp"
 #include "notebook.hpp"
 #include "rilo/config/config_file.hpp"
@@ -41,42 +45,76 @@ RawTimes raw_times_of(const py::object& object, std::size_t points) {
     raw.floats.assign(numbers.data(), numbers.data() + numbers.size());
   } else {
     raw.type = array.itemsize() <= 4 ? ScalarType::kUint32 : ScalarType::kInt64;
-    const auto numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>(array);
-    raw.integers.assign(numbers.data(), numbers.data() + numbers.size());
+    raw.integers = integers_of(array, "timestamps");
   }
   return raw;
 }
 
-/// An odometry and what its calls leave unsaid.
+/// A stamp of any kind of integer.
+std::optional<std::int64_t> stamp_of(const py::object& object) {
+  if (object.is_none()) return std::nullopt;
+  if (PyIndex_Check(object.ptr()) == 0) {
+    refuse_type("stamp_ns", object, "a whole number of ns, or None. Of seconds: round(seconds * 1e9)");
+  }
+  try {
+    return object.cast<std::int64_t>();
+  } catch (const py::cast_error&) {
+    throw py::value_error("stamp_ns: got " + py::str(object).cast<std::string>() + "; expected ns that fit 64 bits");
+  }
+}
+
+// As in the readers: farther from the stamp, times are in another unit or of a clock.
+constexpr float kFarthestFromStampS = 2.5F;
+
+/// @throws ValueError when a point that was measured has a time that is not one of a sweep.
+void check_seconds(std::span<const float> times_s, std::span<const Eigen::Vector3f> points) {
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    if (!std::isfinite(times_s[i]) || std::abs(times_s[i]) <= kFarthestFromStampS) continue;
+    if (!points[i].allFinite() || points[i] == Eigen::Vector3f::Zero()) continue;
+    throw py::value_error(
+        text_of("times_s: got %g at index %zu; expected seconds from stamp_ns, at most %g. Times in other units, of a "
+                "clock, or with single wrong ones: register_frame(points, timestamps)",
+                static_cast<double>(times_s[i]), i, static_cast<double>(kFarthestFromStampS)));
+  }
+}
+
+/// An odometry and what its calls leave unsaid. Any thread may call it.
 class PythonOdometry {
  public:
   PythonOdometry(const py::object& config, const py::object& settings)
       : config_(config_of(config, settings)), odometry_(config_, monotonic_ns) {}
 
-  SweepResult register_sweep(const py::object& points, const py::object& times_s, std::optional<std::int64_t> stamp_ns,
+  SweepResult register_sweep(const py::object& points, const py::object& times_s, const py::object& stamp_ns,
                              const py::object& rings) {
+    const std::optional<std::int64_t> stamp = stamp_of(stamp_ns);
     const auto taken = points_of(points);
     std::optional<Column<float>> times;
     std::optional<Column<std::uint16_t>> beams;
     SweepView sweep;
     sweep.points = taken.values;
     if (!times_s.is_none()) sweep.times_s = times.emplace(times_of(times_s, taken.values.size())).values;
+    check_seconds(sweep.times_s, sweep.points);
     if (!rings.is_none()) sweep.rings = beams.emplace(rings_of(rings, taken.values.size())).values;
-    sweep.stamp_ns = stamp_ns.value_or(next_stamp_ns());
+    const Held held(mutex_);
+    sweep.stamp_ns = stamp.value_or(next_stamp_ns());
     return registered(sweep);
   }
 
-  SweepResult register_frame(const py::object& points, const py::object& timestamps,
-                             std::optional<std::int64_t> stamp_ns, const std::string& unit) {
+  SweepResult register_frame(const py::object& points, const py::object& timestamps, const py::object& stamp_ns,
+                             const std::string& unit) {
+    const std::optional<std::int64_t> stamp = stamp_of(stamp_ns);
     const auto taken = points_of(points);
-    SweepView view;
-    view.points = taken.values;
-    view.stamp_ns = stamp_ns.value_or(next_stamp_ns());
-    if (timestamps.is_none()) return registered(view);
     const auto parsed = parse_point_time_unit(unit);
     if (!parsed) {
       throw py::value_error("point_time_unit: got '" + unit + "'; expected infer, s, ms, us, ns or fraction");
     }
+    std::optional<RawTimes> raw;
+    if (!timestamps.is_none()) raw = raw_times_of(timestamps, taken.values.size());
+    const Held held(mutex_);
+    SweepView view;
+    view.points = taken.values;
+    view.stamp_ns = stamp.value_or(next_stamp_ns());
+    if (!raw) return registered(view);
     if (!decoder_ || *parsed != unit_) {
       unit_ = *parsed;
       PointTimeHints hints;
@@ -87,30 +125,37 @@ class PythonOdometry {
     Sweep sweep;  // the decoder marks points without a time, so it has its own
     sweep.points.assign(taken.values.begin(), taken.values.end());
     sweep.stamp_ns = view.stamp_ns;
-    decoder_->decode(raw_times_of(timestamps, sweep.points.size()), "register_frame", sweep);
-    if (stamp_ns) sweep.stamp_ns = *stamp_ns;
+    decoder_->decode(*raw, "register_frame", sweep);
+    if (stamp) sweep.stamp_ns = *stamp;
     return registered(sweep);
   }
 
   void reset() {
+    const Held held(mutex_);
     odometry_.reset();
     last_stamp_ns_.reset();
     decoder_.reset();
   }
 
-  const Odometry& odometry() const { return odometry_; }
+  /// What `function` makes of the odometry, without Python's lock.
+  template <typename Function>
+  auto read(const Function& function) const {
+    const Held held(mutex_);
+    return function(odometry_);
+  }
   const OdometryConfig& config() const { return config_; }
 
  private:
+  // With the odometry held, as registered().
   std::int64_t next_stamp_ns() const { return last_stamp_ns_ ? *last_stamp_ns_ + kAssumedPeriodNs : 0; }
 
   SweepResult registered(const SweepView& sweep) {
     last_stamp_ns_ = sweep.stamp_ns;
-    const py::gil_scoped_release others_go_on;
     return odometry_.register_sweep(sweep);
   }
 
   OdometryConfig config_;
+  mutable std::mutex mutex_;  // for all that follows
   Odometry odometry_;
   std::optional<std::int64_t> last_stamp_ns_;
   PointTimeUnit unit_ = PointTimeUnit::kInfer;
@@ -118,35 +163,49 @@ class PythonOdometry {
 };
 
 py::array_t<double> trajectory_of(const PythonOdometry& self) {
-  std::vector<SE3> poses;
-  for (const StampedPose& pose : self.odometry().trajectory()) poses.push_back(pose.T_odom_lidar);
-  return pose_array(poses);
+  return pose_array(self.read([](const Odometry& odometry) {
+    std::vector<SE3> poses;
+    for (const StampedPose& pose : odometry.trajectory()) poses.push_back(pose.T_odom_lidar);
+    return poses;
+  }));
 }
 
 py::array_t<std::int64_t> trajectory_stamps(const PythonOdometry& self) {
-  std::vector<std::int64_t> stamps;
-  for (const StampedPose& pose : self.odometry().trajectory()) stamps.push_back(pose.stamp_ns);
+  auto stamps = self.read([](const Odometry& odometry) {
+    std::vector<std::int64_t> all;
+    for (const StampedPose& pose : odometry.trajectory()) all.push_back(pose.stamp_ns);
+    return all;
+  });
   const auto count = static_cast<py::ssize_t>(stamps.size());
   return hand_over<std::int64_t>(std::move(stamps), {count});
 }
 
+std::size_t sweeps_of(const PythonOdometry& self) {
+  return self.read([](const Odometry& odometry) { return odometry.trajectory().size(); });
+}
+
 SE3 last_pose_of(const PythonOdometry& self) {
-  const Trajectory& poses = self.odometry().trajectory();
-  return poses.empty() ? SE3::Identity() : poses.back().T_odom_lidar;
+  return self.read([](const Odometry& odometry) {
+    const Trajectory& poses = odometry.trajectory();
+    return poses.empty() ? SE3::Identity() : poses.back().T_odom_lidar;
+  });
 }
 
 std::string odometry_repr(const PythonOdometry& self) {
-  return text_of("<rilo.Odometry after %zu sweeps, position ", self.odometry().trajectory().size()) +
+  return text_of("<rilo.Odometry after %zu sweeps, position ", sweeps_of(self)) +
          position_text(last_pose_of(self).translation()) + ">";
 }
 
 std::string odometry_html(const PythonOdometry& self) {
-  const Trajectory& poses = self.odometry().trajectory();
-  double path_m = 0;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    path_m += (poses[i].T_odom_lidar.translation() - poses[i - 1].T_odom_lidar.translation()).norm();
-  }
-  return html_table("rilo.Odometry", {{"sweeps", std::to_string(poses.size())},
+  const double path_m = self.read([](const Odometry& odometry) {
+    const Trajectory& poses = odometry.trajectory();
+    double length = 0;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      length += (poses[i].T_odom_lidar.translation() - poses[i - 1].T_odom_lidar.translation()).norm();
+    }
+    return length;
+  });
+  return html_table("rilo.Odometry", {{"sweeps", std::to_string(sweeps_of(self))},
                                       {"path", text_of("%.1f m", path_m)},
                                       {"position", position_text(last_pose_of(self).translation())}});
 }
@@ -157,17 +216,19 @@ config:   the configuration as a dict, YAML text, or the path of a .yaml file; d
 settings: single keys on top of it, as a dict ({"map": {"voxel_m": 0.3}} or {"map.voxel_m": 0.3}) or as a list of
           "key=value". rilo.dump_config() lists all keys with unit, range and meaning.
 
-Raises ConfigError for an unknown key or a value out of range. Not thread-safe: one thread at a time.)";
+Raises ConfigError for an unknown key or a value out of range. Threads that call the same one wait for each other.)";
 
 constexpr const char* kRegisterDoc = R"(Registers one sweep and returns its SweepResult.
 
 points:   (N, 3) or (N, 4), float32 or float64, m, sensor frame (x forward, y left, z up); a fourth column (intensity)
           is ignored. (N, 3) float32 in C order is used in place, anything else is copied. NaN points are dropped.
-times_s:  (N,) float32 or float64, s from stamp_ns, for motion compensation. None: none, or compensated already.
+times_s:  (N,) float32 or float64, s from stamp_ns (at most 2.5), for motion compensation. None: none, or compensated
+          already.
 stamp_ns: time that times_s count from, ns. None: 0.1 s after the sweep before.
 rings:    (N,) integers, beam index; needed for the calibration of single beams only.
 
-Raises ValueError for arrays of another shape or type. Bad data is not an error: see SweepResult.status.)";
+Raises ValueError for arrays of another shape or type and for times that are no seconds of a sweep, TypeError for a
+stamp that is no integer. Bad points are not an error: see SweepResult.status.)";
 
 constexpr const char* kRegisterFrameDoc = R"(Registers one sweep whose timestamps are as the driver gives them.
 
@@ -196,21 +257,24 @@ void add_odometry(py::module_& module) {
           "last_pose", [](const PythonOdometry& self) { return pose_array(last_pose_of(self)); },
           "Pose of the last sweep, (4, 4) float64; the identity before the first.")
       .def(
-          "local_map", [](const PythonOdometry& self) { return point_array(self.odometry().local_map()); },
+          "local_map",
+          [](const PythonOdometry& self) {
+            return point_array(self.read([](const Odometry& odometry) { return odometry.local_map(); }));
+          },
           "Points of the local map, odometry frame, (M, 3) float32, m.")
       .def(
           "last_map_points",
           [](const PythonOdometry& self) {
-            return point_array(std::vector<Eigen::Vector3f>(self.odometry().last_map_points()));
+            return point_array(self.read(
+                [](const Odometry& odometry) { return std::vector<Eigen::Vector3f>(odometry.last_map_points()); }));
           },
-          "Points of the last sweep that went into the map, motion-compensated, sensor frame at the pose's time, (M, "
-          "3) "
-          "float32, m.")
+          "Points of the last sweep that went into the map, motion-compensated, sensor frame at the pose's time, "
+          "(M, 3) float32, m.")
       .def(
           "config", [](const PythonOdometry& self) { return dump_config(self.config()); },
           "The configuration in use, YAML with all keys.")
       .def("reset", &PythonOdometry::reset, "Clears map and trajectory; the next sweep starts at the identity.")
-      .def("__len__", [](const PythonOdometry& self) { return self.odometry().trajectory().size(); })
+      .def("__len__", sweeps_of)
       .def("__repr__", odometry_repr)
       .def("_repr_html_", odometry_html);
 

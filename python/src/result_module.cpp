@@ -95,6 +95,8 @@ void add_results(py::module_& module) {
           "status", [](const SweepResult& r) { return std::string(to_string(r.status)); },
           "initialising, ok, degenerate, lost, recovered or empty: how far the pose can be "
           "trusted.")
+      .def("__copy__", [](const SweepResult& r) { return r; })
+      .def("__deepcopy__", [](const SweepResult& r, const py::dict& /*memo*/) { return r; })
       .def("__repr__", result_repr)
       .def("_repr_html_", result_html);
   add_statistics(result);

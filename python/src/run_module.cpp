@@ -22,7 +22,9 @@ namespace {
 struct PythonRun {
   SessionResult session;
   std::vector<std::string> warnings;
-  std::vector<Eigen::Vector3f> map;
+  // As Python sees them: made once.
+  py::list results;
+  py::array_t<float> map;
 };
 
 /// Python's callables, each None or called with Python's lock, which the run does without.
@@ -100,7 +102,8 @@ PythonRun run(const std::filesystem::path& source, const SourceOptions& source_o
   }
   if (PyErr_Occurred() != nullptr) throw py::error_already_set();
   if (done.session.failure) std::rethrow_exception(done.session.failure);
-  if (map_voxel_m) done.map = map.cloud(false).points;
+  done.results = py::cast(done.session.results);
+  done.map = point_array(map_voxel_m ? map.cloud(false).points : std::vector<Eigen::Vector3f>());
   return done;
 }
 
@@ -177,12 +180,12 @@ void add_run(py::module_& module) {
           },
           "Times that the poses refer to, (N,) int64, ns.")
       .def_property_readonly(
-          "results", [](const PythonRun& run) { return run.session.results; }, "SweepResult of every sweep.")
+          "results", [](const PythonRun& run) { return run.results; }, "SweepResult of every sweep.")
       .def_property_readonly(
           "indices", [](const PythonRun& run) { return run.session.indices; },
           "Place of every sweep in the data; skipped sweeps leave holes.")
       .def_property_readonly(
-          "map", [](const PythonRun& run) { return point_array(std::vector<Eigen::Vector3f>(run.map)); },
+          "map", [](const PythonRun& run) { return run.map; },
           "Map of the whole run, odometry frame, (M, 3) float32, m; empty without map_voxel_m.")
       .def_property_readonly(
           "started_over_after",

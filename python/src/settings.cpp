@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "arrays.hpp"
 #include "rilo/config/config_file.hpp"
 
 namespace rilo::python {
@@ -13,11 +14,6 @@ namespace py = pybind11;
 
 namespace {
 
-[[noreturn]] void reject(const std::string& name, const py::handle& value, const char* expected) {
-  throw py::type_error(name + ": got " + py::repr(value).cast<std::string>() + " of type " +
-                       py::str(py::type::of(value).attr("__name__")).cast<std::string>() + "; expected " + expected);
-}
-
 std::string value_text(const std::string& key, const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
@@ -25,16 +21,22 @@ std::string value_text(const std::string& key, const py::handle& value) {
     // Python's shortest form; its nan and inf have a dot before them in YAML.
     return py::str(value).cast<std::string>();
   }
-  if (py::hasattr(value, "item")) return value_text(key, value.attr("item")());  // numpy's numbers
-  reject(key, value, "a number, a bool or text");
+  if (py::hasattr(value, "dtype") && py::len(value.attr("shape")) == 0) {
+    return value_text(key, value.attr("item")());  // numpy's numbers
+  }
+  refuse_type(key, value, "a number, a bool or text");
+}
+
+bool is_mapping(const py::handle& value) {
+  return py::isinstance(value, py::module_::import("collections.abc").attr("Mapping"));
 }
 
 void flatten(const std::string& prefix, const py::dict& values, std::vector<std::string>& settings) {
   for (const auto& [name, value] : values) {
-    if (!py::isinstance<py::str>(name)) reject("settings", name, "keys that are text");
+    if (!py::isinstance<py::str>(name)) refuse_type("settings", name, "keys that are text");
     const std::string key = prefix + name.cast<std::string>();
-    if (py::isinstance<py::dict>(value)) {
-      flatten(key + ".", py::reinterpret_borrow<py::dict>(value), settings);
+    if (is_mapping(value)) {
+      flatten(key + ".", py::dict(py::reinterpret_borrow<py::object>(value)), settings);
     } else {
       settings.push_back(key + "=" + value_text(key, value));
     }
@@ -44,16 +46,16 @@ void flatten(const std::string& prefix, const py::dict& values, std::vector<std:
 std::vector<std::string> texts_of(const py::object& settings) {
   if (settings.is_none()) return {};
   std::vector<std::string> texts;
-  if (py::isinstance<py::dict>(settings)) {
-    flatten("", py::reinterpret_borrow<py::dict>(settings), texts);
+  if (is_mapping(settings)) {
+    flatten("", py::dict(settings), texts);
     return texts;
   }
   constexpr const char* kExpected = "a dict or a list of \"key=value\"";
   if (py::isinstance<py::str>(settings) || !py::isinstance<py::sequence>(settings)) {
-    reject("settings", settings, kExpected);
+    refuse_type("settings", settings, kExpected);
   }
   for (const py::handle& text : settings) {
-    if (!py::isinstance<py::str>(text)) reject("settings", text, "\"key=value\"");
+    if (!py::isinstance<py::str>(text)) refuse_type("settings", text, "\"key=value\"");
     texts.push_back(text.cast<std::string>());
   }
   return texts;
@@ -61,12 +63,14 @@ std::vector<std::string> texts_of(const py::object& settings) {
 
 OdometryConfig base_of(const py::object& config) {
   if (config.is_none()) return {};
-  if (py::isinstance<py::dict>(config)) return with_overrides({}, texts_of(config), "config");
+  if (is_mapping(config)) return with_overrides({}, texts_of(config), "config");
   if (py::hasattr(config, "__fspath__")) return load_config(config.cast<std::filesystem::path>());
-  if (!py::isinstance<py::str>(config)) reject("config", config, "a dict, YAML text or the path of a YAML file");
+  if (!py::isinstance<py::str>(config)) refuse_type("config", config, "a dict, YAML text or the path of a YAML file");
   const auto text = config.cast<std::string>();
-  if (text.ends_with(".yaml") || text.ends_with(".yml")) return load_config(text);
-  return text.empty() ? OdometryConfig{} : parse_config(text, "config");
+  if (text.empty()) return {};
+  // Keys have a colon behind them.
+  const bool is_path = text.ends_with(".yaml") || text.ends_with(".yml") || text.find(':') == std::string::npos;
+  return is_path ? load_config(text) : parse_config(text, "config");
 }
 
 }  // namespace

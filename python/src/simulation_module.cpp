@@ -18,6 +18,18 @@ seed:     town, traffic and noise.
 start_s:  begin this far into the drive, s; 0: standing.
 deskewed: points compensated to the middle of the sweep, without times; else each at its own time.)";
 
+py::tuple sweep_of(const DriveSimulator& simulator, std::size_t i) {
+  SimulatedSweep s;
+  {
+    const py::gil_scoped_release others_go_on;
+    s = simulator.sweep(i);
+  }
+  const auto count = static_cast<py::ssize_t>(s.sweep.times_s.size());
+  const py::object times = count > 0 ? py::object(hand_over<float>(std::move(s.sweep.times_s), {count})) : py::none();
+  return py::make_tuple(point_array(std::move(s.sweep.points)), times, s.sweep.stamp_ns,
+                        pose_array(s.T_odom_lidar_mid));
+}
+
 }  // namespace
 
 void add_simulation(py::module_& module) {
@@ -38,22 +50,12 @@ void add_simulation(py::module_& module) {
            py::arg("deskewed") = false)
       .def("__len__", &DriveSimulator::size)
       .def(
-          "sweep",
-          [](const DriveSimulator& simulator, std::size_t i) {
-            SimulatedSweep s;
-            {
-              const py::gil_scoped_release others_go_on;
-              s = simulator.sweep(i);
-            }
-            const auto count = static_cast<py::ssize_t>(s.sweep.times_s.size());
-            const py::object times =
-                count > 0 ? py::object(hand_over<float>(std::move(s.sweep.times_s), {count})) : py::none();
-            return py::make_tuple(point_array(std::move(s.sweep.points)), times, s.sweep.stamp_ns,
-                                  pose_array(s.T_odom_lidar_mid));
-          },
-          py::arg("index"),
+          "sweep", sweep_of, py::arg("index"),
           "Sweep number `index` as (points (N, 3) float32, times_s (N,) float32 or None, stamp_ns, true pose (4, 4) at "
           "the middle of the sweep). Raises IndexError past the last.")
+      .def("__getitem__", sweep_of, py::arg("index"), "As sweep().")
+      .def("__iter__",
+           [](const py::object& self) { return py::reinterpret_steal<py::object>(PySeqIter_New(self.ptr())); })
       .def("__repr__", [](const DriveSimulator& simulator) {
         return "<rilo.Simulator of " + std::to_string(simulator.size()) + " sweeps>";
       });

@@ -1,11 +1,13 @@
 // Sweeps from files and recordings.
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 #include <string>
 
 #include "arrays.hpp"
+#include "held.hpp"
 #include "modules.hpp"
 #include "notebook.hpp"
 #include "rilo/io/scan_source.hpp"
@@ -59,7 +61,46 @@ SourceOptions options_of(const std::string& topic, const std::filesystem::path& 
   return options;
 }
 
-HtmlRows rows_of(const ScanSource& source) {
+/// Open data, until they are closed. Any thread may call it.
+class PythonSource {
+ public:
+  explicit PythonSource(std::unique_ptr<ScanSource> source) : source_(std::move(source)) {}
+
+  /// What `function` makes of the data, without Python's lock. @throws ValueError when they are closed.
+  template <typename Function>
+  auto with(const Function& function) const {
+    const Held held(mutex_);
+    if (!source_) throw py::value_error("the ScanSource is closed");
+    return function(*source_);
+  }
+
+  SourceInfo info() const {
+    return with([](const ScanSource& source) { return source.info(); });
+  }
+  std::optional<std::size_t> size() const {
+    return with([](const ScanSource& source) { return source.size(); });
+  }
+  bool closed() const {
+    const Held held(mutex_);
+    return source_ == nullptr;
+  }
+  void close() {
+    const Held held(mutex_);
+    source_.reset();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::unique_ptr<ScanSource> source_;
+};
+
+SharedSweep next_of(const PythonSource& source) {
+  auto sweep = source.with([](ScanSource& open) { return open.next(); });
+  if (!sweep) throw py::stop_iteration();
+  return SharedSweep{std::make_shared<Sweep>(std::move(*sweep))};
+}
+
+HtmlRows rows_of(const PythonSource& source) {
   const SourceInfo info = source.info();
   const auto size = source.size();
   HtmlRows rows{
@@ -73,7 +114,8 @@ HtmlRows rows_of(const ScanSource& source) {
   return rows;
 }
 
-std::string source_repr(const ScanSource& source) {
+std::string source_repr(const PythonSource& source) {
+  if (source.closed()) return "<rilo.ScanSource, closed>";
   const SourceInfo info = source.info();
   const auto size = source.size();
   return "<rilo.ScanSource " + info.path.string() + ": " + info.kind + ", " + info.format + ", " +
@@ -113,57 +155,62 @@ void add_sources(py::module_& module) {
       .def("__len__", [](const SharedSweep& s) { return s.sweep->points.size(); })
       .def("__repr__", [](const SharedSweep& s) { return sweep_repr(s); });
 
-  py::class_<ScanSource>(
+  py::class_<PythonSource>(
       module, "ScanSource",
       "Iterates over the sweeps of a folder, file or recording, once. len() gives their number where it is "
-      "known without reading them (else TypeError, so that list() and tqdm do without).")
+      "known without reading them (else TypeError, so that list() and tqdm do without). May stand in a with statement.")
       .def(
-          "__iter__", [](ScanSource& source) -> ScanSource& { return source; }, py::return_value_policy::reference)
-      .def("__next__",
-           [](ScanSource& source) {
-             std::optional<Sweep> sweep;
-             {
-               const py::gil_scoped_release others_go_on;
-               sweep = source.next();
-             }
-             if (!sweep) throw py::stop_iteration();
-             return SharedSweep{std::make_shared<Sweep>(std::move(*sweep))};
-           })
+          "__iter__", [](PythonSource& source) -> PythonSource& { return source; }, py::return_value_policy::reference)
+      .def("__next__", next_of)
       .def("__len__",
-           [](const ScanSource& source) {
+           [](const PythonSource& source) {
              if (const auto size = source.size()) return *size;
              throw py::type_error("the number of sweeps is not known before they are read");
            })
-      .def("skip", &ScanSource::skip, py::arg("count"),
-           "Skips up to `count` sweeps without reading them; returns how many there were.")
+      .def(
+          "__enter__", [](PythonSource& source) -> PythonSource& { return source; }, py::return_value_policy::reference)
+      .def("__exit__", [](PythonSource& source, const py::args& /*exception*/) { source.close(); })
+      .def("close", &PythonSource::close,
+           "Lets go of files and read-ahead; sweeps that were read stay. What is asked for later raises ValueError.")
+      .def(
+          "skip",
+          [](const PythonSource& source, std::size_t count) {
+            return source.with([count](ScanSource& open) { return open.skip(count); });
+          },
+          py::arg("count"), "Skips up to `count` sweeps without reading them; returns how many there were.")
       .def_property_readonly(
-          "kind", [](const ScanSource& source) { return source.info().kind; },
+          "kind", [](const PythonSource& source) { return source.info().kind; },
           "kitti, folder, file, recording, packets, ...")
       .def_property_readonly(
-          "format", [](const ScanSource& source) { return source.info().format; },
+          "format", [](const PythonSource& source) { return source.info().format; },
           "bin, pcd, ply, mcap, ROS 1 bag, ...")
       .def_property_readonly(
-          "period_s", [](const ScanSource& source) { return source.info().period_s; },
+          "period_s", [](const PythonSource& source) { return source.info().period_s; },
           "Median distance of the stamps, s; 1 / rate without stamps.")
       .def_property_readonly(
-          "point_times", [](const ScanSource& source) { return source.info().point_times; },
+          "point_times", [](const PythonSource& source) { return source.info().point_times; },
           "Where the per-point times come from, with unit and reference; known after the first sweep.")
       .def_property_readonly(
-          "topic", [](const ScanSource& source) { return source.info().topic; }, "Topic of a recording.")
+          "topic", [](const PythonSource& source) { return source.info().topic; }, "Topic of a recording.")
       .def_property_readonly(
-          "frame_id", [](const ScanSource& source) { return source.info().frame_id; }, "Frame of its messages.")
+          "frame_id", [](const PythonSource& source) { return source.info().frame_id; }, "Frame of its messages.")
       .def_property_readonly(
-          "warnings", [](const ScanSource& source) { return source.info().warnings; },
+          "warnings", [](const PythonSource& source) { return source.info().warnings; },
           "Sentences for the user about what was found in the data so far.")
-      .def("__repr__", [](const ScanSource& source) { return source_repr(source); })
-      .def("_repr_html_", [](const ScanSource& source) { return html_table("rilo.ScanSource", rows_of(source)); });
+      .def("__repr__", source_repr)
+      .def("_repr_html_", [](const PythonSource& source) { return html_table("rilo.ScanSource", rows_of(source)); });
 
   // Python's open() and run() take these as keywords: rilo/_sources.py.
   py::class_<SourceOptions>(module, "_SourceOptions")
       .def(py::init(&options_of), py::kw_only(), py::arg("topic"), py::arg("sensor_file"), py::arg("bin_fields"),
            py::arg("point_times"), py::arg("point_time_unit"), py::arg("point_time_reference"), py::arg("time_field"),
            py::arg("spin"), py::arg("elevation_correction_deg"), py::arg("rate"), py::arg("skip_bad_sweeps"));
-  module.def("_open", &open_scan_source, py::arg("path"), py::arg("options"), py::call_guard<py::gil_scoped_release>());
+  module.def(
+      "_open",
+      [](const std::filesystem::path& path, const SourceOptions& options) {
+        return std::make_unique<PythonSource>(open_scan_source(path, options));
+      },
+      py::arg("path"), py::arg("options"), py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace rilo::python

@@ -50,6 +50,51 @@ def test_bad_columns_are_refused(drive):
     assert odometry.register(np.full((100, 3), np.nan, np.float32), stamp_ns=1).status == "empty"
 
 
+def test_times_that_are_no_seconds_of_a_sweep_are_refused(drive):
+    """Taken for seconds, they would keep the odometry from ever getting under way."""
+    points, times, *_ = drive[0]
+    odometry = rilo.Odometry()
+    epoch = 1_700_000_000 + times.astype(np.float64)
+    wild = times.copy()
+    wild[7] = 1e9
+    for bad in (times * 1e3, times * 1e6, times.astype(np.float64) * 1e9, epoch, -epoch, wild):
+        with pytest.raises(ValueError, match=r"times_s: got \S+ at index \d+; expected seconds from stamp_ns, at most 2.5.*register_frame"):
+            odometry.register(points, bad)
+    assert len(odometry) == 0
+    unmeasured = points.copy()
+    unmeasured[7] = np.nan
+    assert odometry.register(unmeasured, wild).status == "initialising"
+    unmeasured[7] = 0
+    assert odometry.register(unmeasured, wild).status != "lost"
+
+
+def test_stamps_are_whole_numbers(drive):
+    points, times, *_ = drive[0]
+    for stamp in (-(10**9), np.int32(5), np.uint64(7), np.array(8)):
+        odometry = rilo.Odometry()
+        assert odometry.register(points, None, stamp).stamp_ns == stamp
+        assert rilo.Odometry().register_frame(points, None, stamp).stamp_ns == stamp
+    odometry = rilo.Odometry()
+    for call in odometry.register, odometry.register_frame:
+        for stamp in (1.5, np.float64(1), "0"):
+            with pytest.raises(TypeError, match=r"stamp_ns: got .* of type \w+; expected a whole number of ns, or None"):
+                call(points, times, stamp)
+        for stamp in (2**63, np.uint64(2**63), -(2**64)):
+            with pytest.raises(ValueError, match="stamp_ns: got -?[0-9]+; expected ns that fit 64 bits"):
+                call(points, times, stamp)
+    assert len(odometry) == 0
+
+
+def test_numbers_beyond_int64_are_refused(drive):
+    points, times, *_ = drive[0]
+    huge = np.full(len(points), 2**64 - 1, np.uint64)
+    told = "got 18446744073709551615 at index 0; expected numbers below 2"
+    with pytest.raises(ValueError, match=f"timestamps: {told}"):
+        rilo.Odometry().register_frame(points, huge)
+    with pytest.raises(ValueError, match=f"rings: {told}"):
+        rilo.Odometry().register(points, times, 0, huge)
+
+
 def test_layouts_types_and_columns_give_the_same_bits(drive, run):
     expected = run[0].trajectory[:3]
     wide = [np.hstack([points, np.full((len(points), 1), 7, np.float32)]) for points, *_ in drive[:3]]

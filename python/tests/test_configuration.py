@@ -1,5 +1,8 @@
 """Configurations and settings in all their forms."""
 
+from collections import ChainMap
+from types import MappingProxyType
+
 import numpy as np
 import pytest
 
@@ -44,3 +47,19 @@ def test_bools_are_settings():
     on = rilo.dump_config(settings={"coarse.enabled": True})
     off = rilo.dump_config(settings={"coarse.enabled": False})
     assert on != off and off == rilo.dump_config(settings=["coarse.enabled=false"])
+
+
+def test_settings_are_any_mapping():
+    wanted = rilo.dump_config(settings={"map.voxel_m": 0.25})
+    for mapping in (MappingProxyType({"map": MappingProxyType({"voxel_m": 0.25})}), ChainMap({"map.voxel_m": 0.25})):
+        assert rilo.dump_config(settings=mapping) == rilo.dump_config(mapping) == wanted
+    assert rilo.dump_config(settings={"map.voxel_m": np.array(0.25)}) == wanted
+    with pytest.raises(TypeError, match=r"map.voxel_m: got array\(\[1, 2\]\) of type ndarray; expected a number"):
+        rilo.Odometry(settings={"map.voxel_m": np.array([1, 2])})
+
+
+def test_text_without_keys_is_a_path(tmp_path):
+    with pytest.raises(rilo.ConfigError, match="^my_config: no such file"):
+        rilo.Odometry("my_config")
+    (tmp_path / "vlp16").write_text("map: {voxel_m: 0.75}\n")
+    assert "voxel_m: 0.75" in rilo.dump_config(str(tmp_path / "vlp16"))

@@ -1,5 +1,7 @@
 """Poses, maps and sweeps in files."""
 
+import threading
+
 import numpy as np
 import pytest
 from conftest import SWEEPS
@@ -27,6 +29,26 @@ def test_poses_and_maps_go_to_files_and_back(tmp_path, run):
     assert np.array_equal(next(rilo.open(tmp_path / "map.pcd")).points, odometry.local_map())
     with pytest.raises(rilo.IoError, match="map.xyz"):
         rilo.write_map(tmp_path / "map.xyz", odometry.local_map())
+
+
+def test_poses_that_are_none_are_not_written(tmp_path, run):
+    poses, stamps = run[0].trajectory, run[0].stamps_ns
+    scaled, mirrored, empty, broken = poses.copy(), poses.copy(), poses.copy(), poses.copy()
+    scaled[2, :3, :3] *= 2
+    mirrored[2, :3, 0] *= -1
+    empty[2] = 0
+    broken[2, 0, 3] = np.nan
+    file = tmp_path / "poses.txt"
+    for bad, told in ((scaled, "rigid transform"), (mirrored, "rigid transform"), (empty, "rigid"), (broken, "finite")):
+        for form in "tum", "euroc", "kitti":
+            with pytest.raises(ValueError, match=f"poses: pose 2 is not .*{told}"):
+                rilo.write_poses(file, bad, stamps, form)
+        with pytest.raises(ValueError, match=f"estimate: pose 2 is not .*{told}"):
+            rilo.evaluate(poses, bad)
+    with pytest.raises(ValueError, match=r"stamps_ns: got 92233720369\d+ at index 0"):
+        rilo.write_poses(file, poses, stamps.astype(np.uint64) + np.uint64(2**63))
+    assert not file.exists()
+    rilo.write_poses(file, poses.astype(np.float32), stamps)
 
 
 def test_files_are_read(tmp_path, drive):
@@ -59,3 +81,26 @@ def test_a_bad_sweep_raises_or_is_skipped(tmp_path, drive):
     with pytest.raises(rilo.IoError, match="000001.bin"):
         list(rilo.open(tmp_path, bin_fields="x,y,z"))
     assert len(list(rilo.open(tmp_path, bin_fields="x,y,z", skip_bad_sweeps=True))) == 2
+
+
+def test_a_source_is_closed_by_with_and_by_close(recording):
+    with rilo.open(recording) as source:
+        sweep = next(source)
+        assert repr(source).startswith("<rilo.ScanSource /")
+    assert len(sweep.points) == len(sweep) > 0  # what was read stays
+    assert repr(source) == "<rilo.ScanSource, closed>"
+    source.close()
+    for asked in (lambda: next(source), lambda: len(source), lambda: source.kind, lambda: source.skip(1)):
+        with pytest.raises(ValueError, match="the ScanSource is closed"):
+            asked()
+
+
+def test_threads_share_a_source(recording):
+    source = rilo.open(recording)
+    taken = []
+    readers = [threading.Thread(target=lambda: taken.extend(sweep.stamp_ns for sweep in source)) for _ in range(3)]
+    for reader in readers:
+        reader.start()
+    for reader in readers:
+        reader.join()
+    assert sorted(taken) == [sweep.stamp_ns for sweep in rilo.open(recording)]

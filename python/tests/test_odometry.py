@@ -16,6 +16,8 @@ def test_simulated_sweeps_are_float32_arrays(drive):
     assert times.dtype == np.float32 and times.shape == (len(points),)
     assert stamp == 300_000_000
     assert pose.shape == (4, 4)
+    iterated = list(rilo.Simulator(sensor="vlp16", sweeps=2, start_s=4.0))
+    assert len(iterated) == 2 and np.array_equal(iterated[1][0], drive[1][0]) and iterated[1][2] == drive[1][2]
     with pytest.raises(IndexError):
         rilo.Simulator(sweeps=2).sweep(2)
     with pytest.raises(ValueError, match="sensor: got 'hdl32'; expected hdl64"):
@@ -85,3 +87,27 @@ def test_threads_go_on_while_registering(drive):
     done.set()
     other.join()
     assert ticks > SWEEPS
+
+
+def test_threads_that_share_an_odometry_wait_for_each_other(drive):
+    odometry = rilo.Odometry()
+    done = threading.Event()
+    seen = []
+
+    def write():
+        for points, times, *_ in drive:
+            odometry.register_frame(points, times)
+
+    def read():
+        while not done.is_set():
+            seen.append((len(odometry.trajectory), len(odometry.local_map()), len(odometry.last_map_points())))
+
+    writers, reader = [threading.Thread(target=write) for _ in range(3)], threading.Thread(target=read)
+    for thread in (reader, *writers):
+        thread.start()
+    for thread in writers:
+        thread.join()
+    done.set()
+    reader.join()
+    assert len(odometry) == 3 * SWEEPS and np.all(np.diff(odometry.stamps_ns) > 0)
+    assert seen == sorted(seen, key=lambda figures: figures[0])

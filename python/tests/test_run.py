@@ -1,5 +1,6 @@
 """Whole runs, and the command that comes along."""
 
+import copy
 import os
 import signal
 
@@ -81,7 +82,39 @@ def test_a_run_has_the_options_of_open_and_refuses_others(recording, tmp_path):
         rilo.run(bins, bin_fields="x,y,z", map_voxel_m=0)
 
 
-def test_an_exception_of_an_observer_ends_the_run(recording):
+@pytest.mark.parametrize("options, error, message", [
+    ({"count": -1}, ValueError, "count: got -1; expected a number from 0"),
+    ({"start": 2.0}, TypeError, "start: got 2.0 of type float; expected a whole number"),
+    ({"rate": "10"}, TypeError, "rate: got '10' of type str; expected a number"),
+    ({"topic": None}, TypeError, "topic: got None of type NoneType; expected text"),
+    ({"bin_fields": ["x", "y"]}, TypeError, r"bin_fields: got \['x', 'y'\] of type list; expected text"),
+    ({"skip_bad_sweeps": "no"}, TypeError, "skip_bad_sweeps: got 'no' of type str; expected True or False"),
+    ({"sensor_file": 3}, TypeError, "sensor_file: got 3 of type int"),
+    ({"map_voxel_m": "1"}, TypeError, "map_voxel_m: got '1' of type str; expected a number or None"),
+    ({"on_sweep": 3}, TypeError, "on_sweep: got 3 of type int; expected a function or None"),
+])  # fmt: skip
+def test_what_an_option_cannot_be_is_said(recording, options, error, message):
+    with pytest.raises(error, match=message):
+        rilo.run(recording, **options)
+
+
+def test_what_is_no_path_is_said(recording):
+    for call in rilo.open, rilo.run:
+        with pytest.raises(TypeError, match="(path|source): got None of type NoneType; expected a path"):
+            call(None)
+    options = {"rate": np.float32(5), "skip_bad_sweeps": np.bool_(True), "sensor_file": recording}
+    assert len(rilo.open(str(recording).encode(), **options)) == len(rilo.open(recording))
+    assert len(rilo.run(recording, count=np.int64(2))) == 2
+
+
+def test_results_of_a_run_are_there_once(recording):
+    run = rilo.run(recording, count=3)
+    assert run.results is run.results and run.map is run.map and run.map.shape == (0, 3)
+    for copied in (copy.copy(run.results[2]), copy.deepcopy(run.results)[2]):
+        assert np.array_equal(copied.pose, run.trajectory[2]) and copied is not run.results[2]
+
+
+def test_an_exception_of_an_observer_ends_the_run(recording, capfd):
     seen = []
 
     def second_is_bad(index, *_):
@@ -90,8 +123,9 @@ def test_an_exception_of_an_observer_ends_the_run(recording):
             raise KeyError("enough")
 
     with pytest.raises(KeyError, match="enough"):
-        rilo.run(recording, on_sweep=second_is_bad)
+        rilo.run(recording, on_sweep=second_is_bad, progress=True)
     assert seen == [0, 1]
+    assert capfd.readouterr().err.endswith("\n")  # the line of the progress is ended
 
 
 def test_ctrl_c_ends_the_run(recording):

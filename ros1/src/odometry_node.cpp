@@ -3,7 +3,6 @@
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 #include <utility>
@@ -40,7 +39,7 @@ class TransformSource {
  public:
   std::optional<SE3> find(const std::string& base_frame, const std::string& lidar_frame) const {
     if (!buffer_.canTransform(base_frame, lidar_frame, ros::Time(0))) return std::nullopt;
-    return tf2::transformToEigen(buffer_.lookupTransform(base_frame, lidar_frame, ros::Time(0)));
+    return Fields::pose_of(buffer_.lookupTransform(base_frame, lidar_frame, ros::Time(0)).transform);
   }
 
  private:
@@ -56,6 +55,8 @@ OdometryNode::OdometryNode(const NodeOptions& options) : odometry_(options, node
   timer_ = node_.createWallTimer(ros::WallDuration(options.diagnostic_period_s),
                                  [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
   advertise();
+  // From now on: a bag may have a static transform once, at its beginning.
+  if (!options.base_frame.empty() && options.base_to_lidar.empty()) transforms_ = std::make_unique<TransformSource>();
   odometry_.start();
 }
 
@@ -113,7 +114,6 @@ bool OdometryNode::path_wanted() const { return path_publisher_.getNumSubscriber
 bool OdometryNode::local_map_wanted() const { return map_publisher_.getNumSubscribers() > 0; }
 
 std::optional<SE3> OdometryNode::look_up(const std::string& base_frame, const std::string& lidar_frame) {
-  if (!transforms_) transforms_ = std::make_unique<TransformSource>();
   std::optional<SE3> T = transforms_->find(base_frame, lidar_frame);
   if (T) transforms_.reset();
   return T;
@@ -123,6 +123,7 @@ void OdometryNode::warn(const std::string& text) { ROS_WARN_STREAM(text); }
 
 void OdometryNode::fail(const std::string& why) {
   ROS_FATAL_STREAM(why);
+  failed_ = true;
   ros::requestShutdown();
 }
 

@@ -1,6 +1,7 @@
 // The odometry on ROS topics.
 #pragma once
 
+#include <atomic>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <memory>
@@ -29,6 +30,9 @@ class OdometryNode final : private NodeOutput {
   OdometryNode(const OdometryNode&) = delete;
   OdometryNode& operator=(const OdometryNode&) = delete;
 
+  /// Whether it ended with an error.
+  bool failed() const { return failed_; }
+
  private:
   void advertise();
   void on_cloud(const topic_tools::ShapeShifter::ConstPtr& message);
@@ -50,7 +54,8 @@ class OdometryNode final : private NodeOutput {
   ros::NodeHandle node_;
   ros::NodeHandle private_node_{"~"};
   tf2_ros::TransformBroadcaster broadcaster_;
-  std::unique_ptr<TransformSource> transforms_;  // while one is looked up
+  std::unique_ptr<TransformSource> transforms_;  // until one is found
+  std::atomic<bool> failed_{false};
   LiveOdometry odometry_;
   diagnostic_updater::Updater diagnostics_;
 

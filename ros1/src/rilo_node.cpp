@@ -12,9 +12,9 @@ int main(int argc, char** argv) {
   try {
     const rilo::ros1::OdometryNode node(rilo::ros1::read_options(node_handle));
     ros::MultiThreadedSpinner(2).spin();  // saving a map does not keep sweeps waiting
+    return node.failed() ? EXIT_FAILURE : EXIT_SUCCESS;
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());
     return EXIT_FAILURE;
   }
-  return EXIT_SUCCESS;
 }

@@ -16,11 +16,26 @@ def flag(text):
     return {"true": True, "false": False}[text.lower()]
 
 
+def numbers(text):
+    return [float(number) for number in text.strip("[]").split(",")]
+
+
+EXPECTED = {flag: "true or false", int: "a whole number", numbers: "a list of numbers", str: "a text"}
+
+
+def taken(given, name, kind):
+    try:
+        return kind(given[name])
+    except (KeyError, ValueError):
+        raise ValueError(f"{name}: expected {EXPECTED[kind]}, found {given[name]}") from None
+
+
 # Parameters of the node: what is left empty is as the parameter file says.
 PARAMETERS = {
     "config": (str, "YAML configuration, as for rilo run --config"),
     "odom_frame": (str, "where the base was at the first sweep"),
     "base_frame": (str, "the robot's frame; empty: the LiDAR's own"),
+    "base_to_lidar": (numbers, "[x, y, z, yaw, pitch, roll] (m, rad) or [x, y, z, qx, qy, qz, qw]; empty: from TF"),
     "publish_tf": (flag, "odom_frame to base_frame on /tf"),
     "invert_tf": (flag, "base_frame becomes the parent of odom_frame"),
     "queue": (int, "sweeps that may wait; 0: all, none is dropped"),
@@ -36,8 +51,8 @@ ARGUMENTS = {
 
 
 def node_parameters(given):
-    values = {name: kind(given[name]) for name, (kind, _) in PARAMETERS.items() if given[name] != ""}
-    if flag(given["reliable"]):
+    values = {name: taken(given, name, kind) for name, (kind, _) in PARAMETERS.items() if given[name] != ""}
+    if taken(given, "reliable", flag):
         topic = given["points"] if given["points"].startswith("/") else "/" + given["points"]
         values[f"qos_overrides.{topic}.subscription.reliability"] = "reliable"
         values[f"qos_overrides.{topic}.subscription.history"] = "keep_last"
@@ -68,7 +83,7 @@ def rviz():
 
 def actions(context):
     given = {name: context.launch_configurations[name] for name in (*PARAMETERS, *ARGUMENTS)}
-    return [odometry(given)] + ([rviz()] if flag(given["rviz"]) else [])
+    return [odometry(given)] + ([rviz()] if taken(given, "rviz", flag) else [])
 
 
 def generate_launch_description():

@@ -31,6 +31,15 @@ std::unique_ptr<Ros> to_ros(Message&& message) {
   return to;
 }
 
+// For topics whose last message waits for those who come late: within a process there is no such thing, and Humble
+// refuses the subscription.
+template <typename Options>
+Options between_processes() {
+  Options options;
+  options.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
+  return options;
+}
+
 rclcpp::ExecutorOptions executor_of(const rclcpp::NodeOptions& node) {
   rclcpp::ExecutorOptions options;
   options.context = node.context();
@@ -75,22 +84,21 @@ diagnostic_msgs::msg::DiagnosticStatus to_ros_status(const StatusMessage& report
 
 class TransformSource {
  public:
-  explicit TransformSource(rclcpp::Node& node) : buffer_(node.get_clock()), listener_(buffer_, &node) {}
+  explicit TransformSource(rclcpp::Node& node)
+      : buffer_(node.get_clock()),
+        listener_(buffer_, &node, kOwnThread, tf2_ros::DynamicListenerQoS(), tf2_ros::StaticListenerQoS(),
+                  rclcpp::SubscriptionOptions(), between_processes<rclcpp::SubscriptionOptions>()) {}
 
   std::optional<SE3> find(const std::string& base_frame, const std::string& lidar_frame) const {
     std::string why_not;  // asked for, it is not printed
     if (!buffer_.canTransform(base_frame, lidar_frame, tf2::TimePointZero, &why_not)) return std::nullopt;
-    const auto found = buffer_.lookupTransform(base_frame, lidar_frame, tf2::TimePointZero).transform;
-    const Eigen::Quaterniond q(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z);
-    SE3 T = SE3::Identity();
-    T.linear() = q.normalized().toRotationMatrix();
-    T.translation() << found.translation.x, found.translation.y, found.translation.z;
-    return T;
+    return Fields::pose_of(buffer_.lookupTransform(base_frame, lidar_frame, tf2::TimePointZero).transform);
   }
 
  private:
+  static constexpr bool kOwnThread = true;
   tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;  // with a thread of its own
+  tf2_ros::TransformListener listener_;
 };
 
 OdometryNode::OdometryNode(const rclcpp::NodeOptions& options)
@@ -101,6 +109,10 @@ OdometryNode::OdometryNode(const rclcpp::NodeOptions& options)
   advertise();
   parameters_callback_ = add_on_set_parameters_callback(
       [this](const std::vector<rclcpp::Parameter>& parameters) { return on_parameters(parameters); });
+  // From now on: a bag may have a static transform once, at its beginning.
+  if (!get_parameter("base_frame").as_string().empty() && get_parameter("base_to_lidar").as_double_array().empty()) {
+    transforms_ = std::make_unique<TransformSource>(*this);
+  }
   odometry_.start();
   subscribe();
 }
@@ -116,12 +128,10 @@ void OdometryNode::advertise() {
   using std_srvs::srv::Trigger;
   odometry_publisher_ = create_publisher<nav_msgs::msg::Odometry>("odometry", rclcpp::QoS(100));
   diagnostics_publisher_ = create_publisher<diagnostic_msgs::msg::DiagnosticArray>("/diagnostics", rclcpp::QoS(10));
-  // Who comes late gets the last one. Within a process there is no such thing.
-  rclcpp::PublisherOptions between_processes;
-  between_processes.use_intra_process_comm = rclcpp::IntraProcessSetting::Disable;
   const auto latched = rclcpp::QoS(1).transient_local();
-  path_publisher_ = create_publisher<nav_msgs::msg::Path>("path", latched, between_processes);
-  map_publisher_ = create_publisher<PointCloud2>("local_map", latched, between_processes);
+  const auto options = between_processes<rclcpp::PublisherOptions>();
+  path_publisher_ = create_publisher<nav_msgs::msg::Path>("path", latched, options);
+  map_publisher_ = create_publisher<PointCloud2>("local_map", latched, options);
 
   services_.push_back(create_service<Trigger>(
       "~/reset", [this](Trigger::Request::SharedPtr /*request*/, Trigger::Response::SharedPtr response) {
@@ -249,7 +259,6 @@ bool OdometryNode::path_wanted() const { return path_publisher_->get_subscriptio
 bool OdometryNode::local_map_wanted() const { return map_publisher_->get_subscription_count() > 0; }
 
 std::optional<SE3> OdometryNode::look_up(const std::string& base_frame, const std::string& lidar_frame) {
-  if (!transforms_) transforms_ = std::make_unique<TransformSource>(*this);
   std::optional<SE3> T = transforms_->find(base_frame, lidar_frame);
   if (T) transforms_.reset();
   return T;
@@ -259,6 +268,7 @@ void OdometryNode::warn(const std::string& text) { RCLCPP_WARN(get_logger(), "%s
 
 void OdometryNode::fail(const std::string& why) {
   RCLCPP_FATAL(get_logger(), "%s", why.c_str());
+  failed_ = true;
   rclcpp::shutdown(get_node_base_interface()->get_context(), why);
 }
 

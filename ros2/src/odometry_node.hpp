@@ -1,6 +1,7 @@
 // The odometry on ROS 2 topics, as a component and as rilo_node.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <diagnostic_msgs/msg/diagnostic_array.hpp>
 #include <future>
@@ -32,6 +33,9 @@ class OdometryNode final : public rclcpp::Node, private NodeOutput {
   explicit OdometryNode(const rclcpp::NodeOptions& options);
   ~OdometryNode() override;
 
+  /// Whether it ended with an error.
+  bool failed() const { return failed_; }
+
  private:
   using PointCloud2 = sensor_msgs::msg::PointCloud2;
 
@@ -55,7 +59,8 @@ class OdometryNode final : public rclcpp::Node, private NodeOutput {
   void fail(const std::string& why) override;
 
   tf2_ros::TransformBroadcaster broadcaster_;
-  std::unique_ptr<TransformSource> transforms_;  // while one is looked up
+  std::unique_ptr<TransformSource> transforms_;  // until one is found
+  std::atomic<bool> failed_{false};
   LiveOdometry odometry_;
 
   rclcpp::Publisher<nav_msgs::msg::Odometry>::SharedPtr odometry_publisher_;

@@ -8,13 +8,15 @@
 
 int main(int argc, char** argv) {
   rclcpp::init(argc, argv);
+  bool failed = false;
   try {
-    rclcpp::spin(std::make_shared<rilo::ros2::OdometryNode>(rclcpp::NodeOptions()));
+    const auto node = std::make_shared<rilo::ros2::OdometryNode>(rclcpp::NodeOptions());
+    rclcpp::spin(node);
+    failed = node->failed();
   } catch (const std::exception& error) {
     RCLCPP_FATAL(rclcpp::get_logger("rilo"), "%s", error.what());
-    rclcpp::shutdown();
-    return EXIT_FAILURE;
+    failed = true;
   }
   rclcpp::shutdown();
-  return EXIT_SUCCESS;
+  return failed ? EXIT_FAILURE : EXIT_SUCCESS;
 }

@@ -1,6 +1,13 @@
 #include "node/base_frame.hpp"
 
+#include <utility>
+
 namespace rilo {
+
+std::string frame_name(std::string name) {
+  if (!name.empty() && name.front() == '/') name.erase(0, 1);
+  return name;
+}
 
 SE3 base_pose(const SE3& T_odom_lidar, const SE3& T_base_lidar, const SE3& T_world_odom) {
   return T_world_odom * T_base_lidar * T_odom_lidar * T_base_lidar.inverse();

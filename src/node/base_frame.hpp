@@ -1,6 +1,7 @@
 // From the LiDAR's poses to those of the robot's base.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,6 +9,9 @@
 #include "rilo/odometry/sweep_result.hpp"
 
 namespace rilo {
+
+/// A frame as tf2 knows it: ROS 1's old drivers write names with a slash in front, which it does not look up.
+std::string frame_name(std::string name);
 
 /// Pose of the base where the LiDAR is at T_odom_lidar from where it began; `T_world_odom` is put before it.
 SE3 base_pose(const SE3& T_odom_lidar, const SE3& T_base_lidar, const SE3& T_world_odom);

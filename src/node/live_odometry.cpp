@@ -10,8 +10,12 @@
 #include <thread>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "node/base_frame.hpp"
 #include "node/node_health.hpp"
 #include "node/odometry_session.hpp"
+#include "node/throttle.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/map_writer.hpp"
 
@@ -101,20 +105,6 @@ class LiveOdometry::Impl {
   NodeHealth health;
 
  private:
-  // True once in ten seconds: of what may go wrong with every message.
-  class Throttle {
-   public:
-    bool due() {
-      const auto now = std::chrono::steady_clock::now();
-      if (last_ && now - *last_ < std::chrono::seconds(10)) return false;
-      last_ = now;
-      return true;
-    }
-
-   private:
-    std::optional<std::chrono::steady_clock::time_point> last_;
-  };
-
   void work() {
     try {
       while (!stopping_ && step()) {
@@ -128,9 +118,11 @@ class LiveOdometry::Impl {
   bool step() {
     try {
       if (!session_.next_sweep()) return false;
+      for (const std::string& warning : session_.new_warnings()) output_.warn(warning);
+      tell_drops();
       const SourceFigures figures = session_.figures();
       health.note_source(figures);
-      if (base_frame_.empty() && !find_extrinsic(figures.lidar_frame)) return false;
+      if (!base_frame_ && !find_extrinsic(frame_name(figures.lidar_frame))) return false;
       process(figures.clock_jumps);
     } catch (const IoError& error) {
       if (bad_message_.due()) output_.warn(std::string("dropped: ") + error.what());
@@ -139,15 +131,23 @@ class LiveOdometry::Impl {
     return true;
   }
 
+  void tell_drops() {
+    const std::size_t dropped = queue->counts().dropped;
+    if (dropped == dropped_told_ || !drops_.due()) return;
+    output_.warn(fmt::format("{} sweeps dropped since the start: they come faster than they are registered", dropped));
+    dropped_told_ = dropped;
+  }
+
   // Waits until it is known. False when the node ends before.
   bool find_extrinsic(const std::string& lidar_frame) {
     const std::string base = options_.base_frame.empty() ? lidar_frame : options_.base_frame;
     if (options_.base_to_lidar.empty() && base != lidar_frame) {
-      const std::string wanted = "the transform " + base + " to " + lidar_frame;
+      const std::string lidar = lidar_frame.empty() ? "the messages' frame, which they do not name" : lidar_frame;
+      const std::string wanted = "the transform " + base + " to " + lidar;
       health.note_waiting(wanted + " in TF (or the parameter base_to_lidar)");
       Throttle complaint;
       std::optional<SE3> T;
-      while (!(T = output_.look_up(base, lidar_frame))) {
+      while (lidar_frame.empty() || !(T = output_.look_up(base, lidar_frame))) {
         if (stopping_) return false;
         if (complaint.due()) output_.warn("waiting for " + wanted + ": publish it, or set base_to_lidar");
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -157,6 +157,10 @@ class LiveOdometry::Impl {
       session_.set_extrinsic(*T);
     }
     base_frame_ = base;
+    if (base.empty() || base == options_.odom_frame) {
+      output_.warn(base.empty() ? "the messages name no frame: nothing on /tf without base_frame and base_to_lidar"
+                                : "the messages' frame is " + base + ", as odom_frame: nothing on /tf; set either");
+    }
     return true;
   }
 
@@ -175,9 +179,9 @@ class LiveOdometry::Impl {
 
   // With the session held, as all that follows.
   void publish(const SweepResult& result, double step_s) {
-    output_.publish(odometry_message(result, step_s, options_.odom_frame, base_frame_));
-    if (options_.publish_tf) {
-      output_.publish(transform_message(result, options_.invert_tf, options_.odom_frame, base_frame_));
+    output_.publish(odometry_message(result, step_s, options_.odom_frame, *base_frame_));
+    if (options_.publish_tf && !base_frame_->empty() && *base_frame_ != options_.odom_frame) {
+      output_.publish(transform_message(result, options_.invert_tf, options_.odom_frame, *base_frame_));
     }
     if (due(path_stamp_ns_, options_.path_period_s, output_.path_wanted())) {
       output_.publish(path_message(session_.path(), options_.odom_frame));
@@ -213,9 +217,11 @@ class LiveOdometry::Impl {
   std::optional<std::int64_t> map_stamp_ns_;
 
   // Of the thread.
-  std::string base_frame_;  // once the transform is known
+  std::optional<std::string> base_frame_;  // once the transform is known
   std::size_t jumps_seen_ = 0;
   Throttle bad_message_;
+  Throttle drops_;
+  std::size_t dropped_told_ = 0;
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };
@@ -251,7 +257,7 @@ std::string LiveOdometry::set_pose(const Eigen::Vector3d& position, const Eigen:
 std::string LiveOdometry::set_initial_pose(const std::string& frame, const Eigen::Vector3d& position,
                                            const Eigen::Quaterniond& orientation) {
   const std::string expected = impl_->odom_frame();
-  if (frame.empty() || frame == expected) return set_pose(position, orientation);
+  if (frame.empty() || frame_name(frame) == expected) return set_pose(position, orientation);
   return "frame " + frame + ", expected " + expected;
 }
 

@@ -77,6 +77,7 @@ StatusMessage NodeHealth::report(const LiveQueueCounts& queue) {
   add_counts(queue, status);
   reported_queue_ = queue;
   reported_bad_messages_ = bad_messages_;
+  reported_sweeps_ = sweeps_;
   reported_lost_ = lost_;
   return status;
 }
@@ -102,7 +103,10 @@ void NodeHealth::judge(const LiveQueueCounts& queue, StatusMessage& status) cons
   }
   if (bad_messages_ > reported_bad_messages_) {
     const std::size_t bad = bad_messages_ - reported_bad_messages_;
-    merge(NodeLevel::kWarn, fmt::format("{} messages that cannot be read since the last report", bad), status);
+    const bool none = sweeps_ == reported_sweeps_;
+    merge(none ? NodeLevel::kError : NodeLevel::kWarn,
+          fmt::format("{} messages that cannot be read since the last report{}", bad, none ? ", and no other" : ""),
+          status);
   }
   if (silent_reports_ >= kStaleReports) {
     merge(NodeLevel::kStale, fmt::format("no message for {} reports", silent_reports_), status);

@@ -60,6 +60,7 @@ class NodeHealth {
   // At the last report.
   LiveQueueCounts reported_queue_;
   std::size_t reported_bad_messages_ = 0;
+  std::size_t reported_sweeps_ = 0;
   std::size_t reported_lost_ = 0;
   std::size_t silent_reports_ = 0;  // without a message
 };

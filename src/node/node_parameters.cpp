@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "config/nearest_word.hpp"
+#include "node/base_frame.hpp"
 #include "rilo/config/config_file.hpp"
 
 namespace rilo {
@@ -178,7 +179,10 @@ NodeOptions with_parameters(const NodeOptions& options, const std::map<std::stri
   NodeOptions changed = options;
   const NodeParameters parameters(changed);
   for (const auto& [name, value] : changes) parameters.at(name).set(value);
+  changed.odom_frame = frame_name(changed.odom_frame);
+  changed.base_frame = frame_name(changed.base_frame);
   if (changed.odom_frame.empty()) refuse("odom_frame", "the name of a frame");
+  if (changed.base_frame == changed.odom_frame) refuse("base_frame", "another frame than odom_frame");
   if (!changed.base_to_lidar.empty()) pose_from_list(changed.base_to_lidar);
   validate(changed.config);
   return changed;

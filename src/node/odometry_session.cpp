@@ -1,5 +1,6 @@
 #include "node/odometry_session.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "node/base_frame.hpp"
@@ -41,6 +42,24 @@ SourceFigures OdometrySession::figures() const {
   const StampFaults& faults = info.faults;
   return {faults.gaps,        faults.missing,   faults.duplicates, faults.out_of_order,
           faults.clock_jumps, info.point_times, info.frame_id};
+}
+
+std::vector<std::string> OdometrySession::new_warnings() {
+  std::vector<std::string> fresh;
+  std::vector<std::string> all = source_->info().warnings;
+  // `rilo run` finds that out.
+  untimed_ = untimed_ || (sweep_->times_s.empty() && !sweep_->points.empty());
+  if (untimed_ && source_options_.point_times == PointTimes::kAuto) {
+    all.emplace_back(
+        "no times of the points: they are used as if they were measured at once. Where they are raw, set point_times "
+        "to "
+        "order or azimuth, else to none");
+  }
+  for (std::string& warning : all) {
+    if (std::find(given_.begin(), given_.end(), warning) == given_.end()) fresh.push_back(std::move(warning));
+  }
+  given_.insert(given_.end(), fresh.begin(), fresh.end());
+  return fresh;
 }
 
 void OdometrySession::set_extrinsic(const SE3& T_base_lidar) { T_base_lidar_ = T_base_lidar; }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,6 +29,8 @@ class OdometrySession {
   /// Waits for the next sweep and keeps it. False when the queue was closed. @throws IoError when it cannot be read.
   bool next_sweep();
   SourceFigures figures() const;
+  /// Sentences about the sweep kept and those before, each once.
+  std::vector<std::string> new_warnings();
 
   /// Before the first sweep is registered.
   void set_extrinsic(const SE3& T_base_lidar);
@@ -56,6 +59,8 @@ class OdometrySession {
   SourceOptions source_options_;
   std::shared_ptr<LiveQueue> queue_;
   std::unique_ptr<ScanSource> source_;
+  std::vector<std::string> given_;  // warnings
+  bool untimed_ = false;            // some points were
   std::optional<Sweep> sweep_;
   Odometry odometry_;
   double map_voxel_m_;

@@ -54,6 +54,18 @@ def main():
     node, viewer = started(module, points="/velodyne_points", queue="0", publish_tf="False", base_frame="base_link",
                            use_sim_time="true", rviz="true", reliable="true")
     assert node.remappings == [("points", "/velodyne_points")]
+    placed, = started(module, base_frame="base_link", base_to_lidar="[1, -0.5, 1.7, 0, 0, 0.1]")
+    assert placed.parameters[1] == {"base_frame": "base_link", "base_to_lidar": [1.0, -0.5, 1.7, 0.0, 0.0, 0.1]}
+    for wrong, told in (({"publish_tf": "1"}, "publish_tf: expected true or false, found 1"),
+                        ({"queue": "two"}, "queue: expected a whole number, found two"),
+                        ({"base_to_lidar": "1 2"}, "base_to_lidar: expected a list of numbers, found 1 2"),
+                        ({"rviz": "yes"}, "rviz: expected true or false, found yes")):
+        try:
+            started(module, **wrong)
+        except ValueError as error:
+            assert str(error) == told, error
+        else:
+            raise AssertionError(f"{wrong} is taken")
     overrides = "qos_overrides./velodyne_points.subscription."
     assert node.parameters[1] == {
         "queue": 0, "publish_tf": False, "base_frame": "base_link", "use_sim_time": True,

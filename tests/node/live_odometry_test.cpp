@@ -1,6 +1,7 @@
 // A node without ROS: messages in, what is published, services, parameters at run time.
 #include "rilo/node/live_odometry.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <mutex>
 
@@ -172,7 +173,7 @@ TEST_F(RunningNode, AJumpBackInTimeStartsAnew) {
   odometry.stop();
   expect_pose(output.odometry[2].pose, expected_poses(2)[1]);
   EXPECT_EQ(value_of(odometry.report(), "resets"), "1");
-  EXPECT_THAT(output.warnings.front(), HasSubstr("back in time"));
+  EXPECT_THAT(output.warnings.back(), HasSubstr("back in time"));
 }
 
 TEST_F(RunningNode, AMessageThatCannotBeReadIsLeftOut) {
@@ -189,7 +190,9 @@ TEST_F(RunningNode, AMessageThatCannotBeReadIsLeftOut) {
   EXPECT_EQ(value_of(report, "messages that cannot be read"), "3");
   EXPECT_EQ(value_of(report, "messages lost on the way"), "5");
   EXPECT_THAT(output.warnings.front(), HasSubstr("message 2 of /points"));
-  EXPECT_EQ(output.warnings.size(), 1U);  // once in a while is enough
+  EXPECT_EQ(std::count_if(output.warnings.begin(), output.warnings.end(),
+                          [](const std::string& warning) { return warning.rfind("dropped: ", 0) == 0; }),
+            1);  // once in a while is enough
 }
 
 // rclcpp::Time throws on times before 1970.

@@ -70,6 +70,15 @@ TEST(NodeHealth, WhatIsLostIsToldOnceAndCountedForEver) {
   EXPECT_EQ(figure(second, "last that cannot be read"), "no x");
 }
 
+TEST(NodeHealth, WhenNoMessageCanBeReadItIsAnError) {
+  NodeHealth health;
+  health.note_bad_message("of another frame");
+  EXPECT_EQ(health.report({1, 0, 0}).level, NodeLevel::kError);
+  health.note_bad_message("of another frame");
+  health.note_sweep(with_status(OdometryStatus::kOk), 1);
+  EXPECT_EQ(health.report({3, 0, 0}).level, NodeLevel::kWarn);
+}
+
 TEST(NodeHealth, SilenceIsStale) {
   NodeHealth health;
   health.note_sweep(with_status(OdometryStatus::kOk), 1);

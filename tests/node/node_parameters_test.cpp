@@ -88,6 +88,8 @@ TEST(NodeParameters, WhatIsWrongIsNamed) {
   EXPECT_THAT(refusal([] { node_options({{"publish_tf", "perhaps"}}); }), HasSubstr("expected true or false"));
   EXPECT_THAT(refusal([] { node_options({{"point_times", "never"}}); }), HasSubstr("auto or none or azimuth"));
   EXPECT_THAT(refusal([] { node_options({{"odom_frame", ""}}); }), HasSubstr("odom_frame"));
+  EXPECT_THAT(refusal([] { node_options({{"odom_frame", "/"}}); }), HasSubstr("odom_frame"));
+  EXPECT_THAT(refusal([] { node_options({{"base_frame", "/odom"}}); }), HasSubstr("another frame than odom_frame"));
   EXPECT_THAT(refusal([] { node_options({{"odom_frame", 3.0}}); }), HasSubstr("a text"));
   EXPECT_THAT(refusal([] {
                 node_options({{"base_to_lidar", std::vector<double>{1, 2}}});

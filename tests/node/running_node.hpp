@@ -102,6 +102,7 @@ inline NodeOptions at_once() {
   NodeOptions options;
   options.queue = 0;
   options.look_ahead = 0;
+  options.source.point_times = PointTimes::kNone;  // the messages here have none
   options.path_period_s = 0;
   options.local_map_period_s = 0;
   return options;

@@ -157,6 +157,17 @@ struct MessageFields {
     return {pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z};
   }
 
+  /// Of a geometry_msgs/Transform: a quaternion of few digits has not quite length 1.
+  template <typename Transform>
+  static SE3 pose_of(const Transform& transform) {
+    const auto& q = transform.rotation;
+    const auto& t = transform.translation;
+    SE3 T = SE3::Identity();
+    T.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
+    T.translation() << t.x, t.y, t.z;
+    return T;
+  }
+
  private:
   template <typename Message, typename Header>
   static void copy_header(const Message& from, Header& to) {

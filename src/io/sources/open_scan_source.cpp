@@ -81,7 +81,9 @@ std::unique_ptr<ScanSource> in_order_and_corrected(std::unique_ptr<ScanSource> s
 
 std::unique_ptr<ScanSource> open_live_source(std::shared_ptr<LiveQueue> queue, const SourceOptions& options) {
   check_options(options);
-  return in_order_and_corrected(detail::open_recording("live", detail::open_live(std::move(queue)), options), options);
+  auto source =
+      in_order_and_corrected(detail::open_recording("live", detail::open_live(std::move(queue)), options), options);
+  return detail::with_field_warnings(std::move(source), options);
 }
 
 std::unique_ptr<ScanSource> open_scan_source(const fs::path& path, const SourceOptions& options) {

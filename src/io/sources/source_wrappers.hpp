@@ -50,6 +50,9 @@ std::unique_ptr<ScanSource> with_order_times(std::unique_ptr<ScanSource> inner);
 /// data that may hold times and are not used.
 std::unique_ptr<ScanSource> with_option_warnings(std::unique_ptr<ScanSource> inner, const SourceOptions& options);
 
+/// The part about the fields.
+std::unique_ptr<ScanSource> with_field_warnings(std::unique_ptr<ScanSource> inner, const SourceOptions& options);
+
 /// Reads up to `depth` sweeps (one at least) ahead on a background thread, which starts at the first next(). The order
 /// and the errors are those of `inner`: an exception is rethrown by the next() that would have thrown it. The
 /// destructor waits for the sweep that is being read.

@@ -55,9 +55,9 @@ std::vector<std::string> unused_times(const SourceOptions& options, const Source
   return warnings;
 }
 
-class WithOptionWarnings final : public WrappedSource {
+class WithWarnings final : public WrappedSource {
  public:
-  WithOptionWarnings(std::unique_ptr<ScanSource> inner, std::vector<std::string> warnings)
+  WithWarnings(std::unique_ptr<ScanSource> inner, std::vector<std::string> warnings)
       : WrappedSource(std::move(inner)), warnings_(std::move(warnings)) {}
 
   SourceInfo info() const override {
@@ -70,14 +70,23 @@ class WithOptionWarnings final : public WrappedSource {
   std::vector<std::string> warnings_;
 };
 
+std::unique_ptr<ScanSource> with_warnings(std::unique_ptr<ScanSource> inner, std::vector<std::string> warnings) {
+  if (warnings.empty()) return inner;
+  return std::make_unique<WithWarnings>(std::move(inner), std::move(warnings));
+}
+
 }  // namespace
+
+std::unique_ptr<ScanSource> with_field_warnings(std::unique_ptr<ScanSource> inner, const SourceOptions& options) {
+  std::vector<std::string> warnings = unused_times(options, inner->info());
+  return with_warnings(std::move(inner), std::move(warnings));
+}
 
 std::unique_ptr<ScanSource> with_option_warnings(std::unique_ptr<ScanSource> inner, const SourceOptions& options) {
   const SourceInfo info = inner->info();
   std::vector<std::string> warnings = unused_options(options, info);
   for (std::string& warning : unused_times(options, info)) warnings.push_back(std::move(warning));
-  if (warnings.empty()) return inner;
-  return std::make_unique<WithOptionWarnings>(std::move(inner), std::move(warnings));
+  return with_warnings(std::move(inner), std::move(warnings));
 }
 
 }  // namespace rilo::detail

@@ -83,12 +83,11 @@ void add_sensor_angles(const RunRecord& run, RunMetrics& metrics) {
   const SweepStats& last = run.results.back().stats;
   metrics.beam_elevation_rms_deg = kDegPerRad * last.beam_elevation_rms_rad;
   metrics.beam_azimuth_rms_deg = kDegPerRad * last.beam_azimuth_rms_rad;
-  if (!run.config.elevation.enabled) return;
-  if (std::isfinite(last.elevation_offset_sigma_rad)) {
+  metrics.elevation_offset_applied_deg = kDegPerRad * last.elevation_applied_rad;
+  if (run.config.elevation.enabled && std::isfinite(last.elevation_offset_sigma_rad)) {
     metrics.elevation_offset_deg = kDegPerRad * last.elevation_offset_rad;
     metrics.elevation_offset_sigma_deg = kDegPerRad * last.elevation_offset_sigma_rad;
   }
-  metrics.elevation_offset_applied_deg = kDegPerRad * last.elevation_applied_rad;
 }
 
 void add_data(const RunRecord& run, RunMetrics& metrics) {

@@ -214,6 +214,25 @@ TEST(Elevation, PoseAndVelocityAreEliminated) {
   EXPECT_LT((sweep.pose.translation - follows.segment<3>(3)).norm(), 0.1 * follows.segment<3>(3).norm());
 }
 
+TEST(Elevation, OfASweepInDoubtThePoseStillFollowsTheAngle) {
+  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
+  IcpResult icp;
+  icp.state.T_odom_lidar = se3_exp(test::twist(0.0, 0.002, 0.01, 0.6, 0.2, 0.01));
+  icp.posterior_information = 1e8 * Matrix12d::Identity();
+  PreparedSweep sweep;
+  sweep.source.points = test::seen_from(icp.state.T_odom_lidar, test::rimless_room(0.23, 0.37, 1.3));
+  SensorCalibration calibration({}, BeamCalibrationConfig{false});
+  PoseDerivative before;
+  for (int i = 0; i < 2; ++i) {  // each from the one before
+    calibration.learn(sweep, icp, 0.3, {}, false, map);
+    before = elevation_information(sweep.source, map, icp, 0.3, {}, before, 4).pose;
+    EXPECT_GT(before.translation.norm(), 0.0);
+    EXPECT_EQ(calibration.pose_by_elevation().translation, before.translation);
+    EXPECT_EQ(calibration.pose_by_elevation().rotation, before.rotation);
+  }
+  EXPECT_EQ(calibration.elevation().offset_rad(), 0.0) << "nothing is learnt from it";
+}
+
 SweepResult last_of(double bias_deg, const OdometryConfig& config, double* error_deg = nullptr) {
   DriveConfig drive;
   drive.elevation_bias_deg = bias_deg;

@@ -95,13 +95,14 @@ class InitialPoseInAHall : public ::testing::Test {
   }
 
   /// The sweep was taken at `truth`; the sensor was last in the origin.
-  InitialPose choose(InitialPoseStage& stage, const SE3& truth, const SE3& predicted, bool in_doubt) const {
+  InitialPose choose(InitialPoseStage& stage, const SE3& truth, const SE3& predicted, bool in_doubt,
+                     const Deadline& deadline = {}) const {
     const TimedCloud source{seen_from(truth, 0.2)};
     MotionState state;
     state.T_odom_lidar = predicted;
     const SE3 previous = SE3::Identity();
     const std::function<Vector6d(const SE3&)> at_rest = [](const SE3&) { return Vector6d(Vector6d::Zero()); };
-    return stage.choose({source, state, previous, at_rest, map_, false, in_doubt});
+    return stage.choose({source, state, previous, at_rest, map_, false, in_doubt, deadline});
   }
 
   LocalMap map_{LocalMapConfig{}};
@@ -173,6 +174,31 @@ TEST_F(InitialPoseInAHall, AnAbruptTurnIsFoundByTheSearchOnTheMap) {
   EXPECT_EQ(choice.source, InitialPoseSource::kCoarse);
   EXPECT_LT((choice.T_odom_lidar.inverse() * truth).translation().norm(), 0.1);
   EXPECT_LT(rotation_angle_rad(choice.T_odom_lidar.inverse() * truth), 0.02);
+}
+
+TEST_F(InitialPoseInAHall, ASearchThatRanOutOfTimeGoesOnWithTheMapInTheNextSweep) {
+  const SE3 truth = moved(1.5, -1.0, 0.55);
+  InitialPoseStage in_time = begun();
+  const int starts = choose(in_time, truth, SE3::Identity(), true).coarse_starts;
+  InitialPoseStage stage = begun();
+  std::int64_t now_ns = 0;
+  const Deadline::Clock clock = [&] { return now_ns++; };
+  const InitialPose cut = choose(stage, truth, SE3::Identity(), true, Deadline(clock, 1));
+  EXPECT_TRUE(cut.coarse_cut);
+  EXPECT_EQ(cut.coarse_starts, 1);
+  const InitialPose next = choose(stage, truth, SE3::Identity(), true);
+  EXPECT_EQ(next.coarse_starts, starts - 1) << "not from the prediction again";
+  EXPECT_LT((next.T_odom_lidar.inverse() * truth).translation().norm(), 0.1);
+}
+
+TEST_F(InitialPoseInAHall, WithoutTimeThePredictionIsTaken) {
+  InitialPoseStage stage = begun();
+  const Deadline::Clock clock = [] { return std::int64_t{1}; };
+  const InitialPose choice = choose(stage, moved(1.0, 0.0, 0.0), SE3::Identity(), true, Deadline(clock, 0));
+  EXPECT_EQ(choice.reason, InitialPoseReason::kNoTime);
+  EXPECT_EQ(choice.coarse_starts, 0);
+  EXPECT_TRUE(choice.coarse_cut);
+  EXPECT_TRUE(choice.T_odom_lidar.isApprox(SE3::Identity()));
 }
 
 }  // namespace

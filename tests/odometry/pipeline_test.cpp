@@ -133,6 +133,16 @@ TEST(Pipeline, ResetForgetsAnotherDrive) {
   }
 }
 
+TEST(Pipeline, BeamsAreLearntFromTheFourthSweepOfAMapOn) {
+  DriveConfig config = small_drive(4.0, 5);
+  config.sensor = SensorKind::kOs1;
+  const Outcome run = drive({}, config);
+  for (std::size_t i = 0; i < run.results.size(); ++i) {
+    ASSERT_EQ(run.results[i].status, i == 0 ? OdometryStatus::kInitialising : OdometryStatus::kOk);
+    EXPECT_EQ(run.results[i].stats.beam_elevation_rms_rad > 0.0, i >= 3) << i;
+  }
+}
+
 TEST(Pipeline, EmptyAndNanSweepsArePassedOver) {
   Odometry odometry({});
   const SweepResult nothing = odometry.register_sweep({});

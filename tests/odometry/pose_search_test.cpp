@@ -197,6 +197,19 @@ TEST_F(PoseSearches, WhereItStandsOutButDoesNotSettleItMayLieAtEitherPlace) {
   EXPECT_EQ(x_of(found), before);
 }
 
+TEST_F(PoseSearches, WhereADirectionIsOpenStandingOutIsNoEvidence) {
+  map_road(kIrregular);
+  see_road(4.0, kIrregular);
+  config_.health.degenerate_ratio = 1.1;  // any direction is
+  const RegistrationParts all = parts();
+  Registration found = at_the_prediction(all);
+  const double before = x_of(found);
+  PathSearch(all, PoseSearch(all)).improve(predicted(), found);
+  EXPECT_EQ(found.starts, 2) << "it was tried";
+  EXPECT_EQ(x_of(found), before);
+  EXPECT_FALSE(found.ambiguous);
+}
+
 TEST_F(PoseSearches, WhereNothingStandsOutNoOtherPlaceIsTried) {
   map_road(kNone);
   see_road(1.0, kNone);
@@ -260,6 +273,7 @@ TEST_F(PoseSearches, OtherPlacesAreSearchedWhenADirectionIsNoLongerSeen) {
 
 /// The second sweep of a map that one sweep began 2.5 m before, from there.
 TEST_F(PoseSearches, ASecondSweepThatFitsElsewhereAsWellIsAmbiguous) {
+  config_.threshold.floor_m = 0.01;
   for (const Panels& panels : {kIrregular, kRegular}) {
     map_ = SweepMap(config_.map);
     map_.begin({road(0.0, 40.0, 0.0, 0.01, panels)}, {}, 8.0, {});
@@ -276,6 +290,7 @@ TEST_F(PoseSearches, ASecondSweepThatFitsElsewhereAsWellIsAmbiguous) {
     EXPECT_EQ(found.ambiguous, regular);
     EXPECT_NEAR(regular ? std::abs(x_of(found)) : x_of(found), 2.5, 0.05);
     EXPECT_GT(found.starts, 1);
+    EXPECT_DOUBLE_EQ(found.sigma_th_m, 0.025) << "halved twice, from round to round";
   }
 }
 

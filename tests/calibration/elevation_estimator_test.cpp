@@ -137,5 +137,13 @@ TEST(ElevationEstimator, SmallErrorsAreNotCorrectedHoweverCertain) {
   EXPECT_NEAR(larger.applied_rad(), 0.09 * kRadPerDeg, 1e-3 * kRadPerDeg);
 }
 
+TEST(ElevationEstimator, ABlockThatIsNotFullDoesNotScatter) {
+  ElevationOffsetEstimator estimator({});
+  add(estimator, 0.01, 15);
+  add(estimator, 0.05, 2);
+  const double information = 1e9 * 1785.0 / 289.0;  // Σ i² / 17²
+  EXPECT_NEAR(estimator.sigma_rad(), std::sqrt(1.0 / information + std::pow(0.002 / 5.0, 2)), 1e-8);
+}
+
 }  // namespace
 }  // namespace rilo

@@ -1,6 +1,8 @@
 // What enters the motion and what does not.
 #include "odometry/motion_tracker.hpp"
 
+#include <cmath>
+
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
@@ -248,6 +250,53 @@ TEST(MotionTracker, ThePriorOfTheSweepBeforeLooksBack) {
   EXPECT_NEAR(prior.state.T_odom_lidar.translation().x(), 1.0, 1e-12) << "10 m/s, 0.2 s ago";
   EXPECT_NEAR(prior.state.twist[3], 10.0, 1e-12);
   EXPECT_NEAR(covariance_of(prior)(3, 9), -(0.2 + 0.02 * 10.0), 1e-6);
+}
+
+TEST(MotionTracker, ANewMapBeginsWithoutWhatWas) {
+  MotionTracker tracker = driving();
+  tracker.advance({.step_ns = kStepNs, .even_ns = kStepNs});
+  tracker.accept(at(3.0), MotionVerdict::kPossible, true);
+  tracker.advance({.step_ns = kStepNs + kStepNs / 5, .even_ns = kStepNs});
+  tracker.lose(tracker.predicted(0.3), at(9.0).state.T_odom_lidar);
+  MotionState moving;
+  moving.twist[3] = 10.0;
+  tracker.begin(moving);
+  tracker.advance(after(kStepNs));
+  EXPECT_FALSE(tracker.lost());
+  EXPECT_FALSE(tracker.degenerate());
+  EXPECT_FALSE(tracker.predicted_from_claim());
+  EXPECT_EQ(tracker.weigh(at(5.0).state.T_odom_lidar), MotionVerdict::kPossible) << "50 m/s at once";
+  MotionTracker fresh({}, {}, {});
+  fresh.begin(moving);
+  fresh.advance(after(kStepNs));
+  EXPECT_TRUE(tracker.prior(std::nullopt).information.isApprox(fresh.prior(std::nullopt).information, 1e-12));
+}
+
+TEST(MotionTracker, AfterAJumpTheStepIsThatFromClaimToClaim) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  tracker.lose(tracker.predicted(0.3), at(50.0).state.T_odom_lidar);
+  tracker.advance(after(kStepNs));
+  tracker.lose(tracker.predicted(0.3), at(54.0).state.T_odom_lidar);
+  tracker.advance(after(kStepNs));
+  tracker.accept(at(58.0), MotionVerdict::kJump, false);
+  tracker.advance(after(kStepNs));
+  EXPECT_EQ(tracker.weigh(at(62.0).state.T_odom_lidar), MotionVerdict::kPossible);
+  EXPECT_EQ(tracker.weigh(at(59.0).state.T_odom_lidar), MotionVerdict::kImpossible);
+}
+
+TEST(MotionTracker, ThePriorExpectsTurnsToEndAndPosesStayRotations) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  IcpResult turning = at(3.0);
+  turning.state.twist[2] = 1.0;
+  turning.state.T_odom_lidar.linear()(0, 0) += 1e-6;  // rounded again and again
+  tracker.accept(turning, MotionVerdict::kPossible, false);
+  EXPECT_TRUE(tracker.trusted().T_odom_lidar.linear().isUnitary(1e-12));
+  tracker.advance(after(kStepNs));
+  const MotionPrior prior = tracker.prior(std::nullopt);
+  EXPECT_NEAR(prior.state.twist[2], std::exp(-0.1), 1e-9);
+  EXPECT_NEAR(rotation_angle_rad(prior.state.T_odom_lidar), 0.1 * std::exp(-0.1), 1e-6);
 }
 
 }  // namespace

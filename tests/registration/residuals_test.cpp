@@ -41,7 +41,7 @@ TEST(Residuals, WherePointsAreNoPlaneTheirGaussianCounts) {
   const Eigen::Vector3d point(1.03, 0.95, 1.1);
   MapScatter scatter;
   map.visit<LocalMap::Wanted::kPlanesAndScatter>(
-      0, 1, [&](std::size_t) { return point; },
+      0, 1, [&](std::size_t) -> const Eigen::Vector3d& { return point; },
       [&](std::size_t, const Eigen::Vector3d&, const PlaneSpot& spot) {
         ASSERT_TRUE(spot.scatter);
         scatter = spot.grid->scatter_at(spot);

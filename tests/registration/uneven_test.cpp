@@ -94,5 +94,19 @@ TEST_F(UnevenMotion, WhatTheLeastNoiseExplainsIsNoMotion) {
   EXPECT_GT(uneven_motion(source, map_, {}, kUnevenSigmaM, {}, kUnevenNoiseShare, 1)[5], 4e-5);
 }
 
+TEST_F(UnevenMotion, OfStretchesThatDoNotSeeADirectionNothingCounts) {
+  TimedCloud all =
+      test::measured_in_motion(test::seen_from(SE3::Identity(), test::rimless_room(0.11, 0.37, 1.3)), Vector6d::Zero());
+  TimedCloud source;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all.offsets_s[i] < 0.0F || std::abs(all.points[i].z()) < 2.8F) {  // later on neither floor nor ceiling
+      source.points.push_back(all.points[i]);
+      source.points.back().z() -= 0.01F * std::sin(62.8319F * all.offsets_s[i]);
+      source.offsets_s.push_back(all.offsets_s[i]);
+    }
+  }
+  EXPECT_NEAR(uneven_motion(source, map_, {}, kUnevenSigmaM, {}, kUnevenNoiseShare, 1)[5], 4.75e-5, 1e-5);
+}
+
 }  // namespace
 }  // namespace rilo

@@ -15,8 +15,8 @@
 namespace rilo {
 namespace {
 
-constexpr double kPeriodS = 0.1;
-constexpr std::int64_t kPeriodNs = 100'000'000;
+constexpr double kSearchPeriodS = 0.1;
+constexpr std::int64_t kSearchPeriodNs = 100'000'000;
 
 SE3 along(double x_m) { return SE3(Eigen::Translation3d(x_m, 0.0, 0.0)); }
 double x_of(const Registration& found) { return found.icp.state.T_odom_lidar.translation().x(); }
@@ -74,10 +74,10 @@ class PoseSearches : public ::testing::Test {
     map_.insert(world, {}, {});
     tracker_.begin({along(-2.0)});
     for (const double x : {-1.0, 0.0}) {
-      tracker_.advance({0, kPeriodNs, kPeriodNs, true});
+      tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
       tracker_.accept(state_at(x), MotionVerdict::kPossible, false);
     }
-    tracker_.advance({0, kPeriodNs, kPeriodNs, true});
+    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
   }
 
   static IcpResult state_at(double x) {
@@ -99,7 +99,7 @@ class PoseSearches : public ::testing::Test {
             .pose_by_elevation = still_,
             .sigma_th_m = 0.1,
             .usual_sigma_th_m = 0.1,
-            .period_s = kPeriodS};
+            .period_s = kSearchPeriodS};
   }
 
   MotionState predicted() const { return tracker_.predicted(0.1); }
@@ -266,7 +266,7 @@ TEST_F(PoseSearches, OtherPlacesAreSearchedWhenADirectionIsNoLongerSeen) {
     init.T_odom_lidar = predicted().T_odom_lidar;
     EXPECT_EQ(fine_registration(late, predicted(), init).cut, !panels);
     tracker_.accept(state_at(1.0), MotionVerdict::kPossible, true);
-    tracker_.advance({0, kPeriodNs, kPeriodNs, true});
+    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
     EXPECT_FALSE(fine_registration(late, predicted(), init).cut) << "it was not seen before either";
   }
 }
@@ -279,7 +279,7 @@ TEST_F(PoseSearches, ASecondSweepThatFitsElsewhereAsWellIsAmbiguous) {
     map_.begin({road(0.0, 40.0, 0.0, 0.01, panels)}, {}, 8.0, {});
     tracker_ = MotionTracker({}, {}, {});
     tracker_.begin({});
-    tracker_.advance({0, kPeriodNs, kPeriodNs, true});
+    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
     prepared_.source.points = road(2.5, 40.0, 0.07, 0.01, panels);
     prepared_.map_cloud = prepared_.source;
     prepared_.scene_range_m = 8.0;

@@ -10,7 +10,7 @@
 namespace rilo {
 namespace {
 
-constexpr double kScaleM = 0.2;
+constexpr double kResidualScaleM = 0.2;
 
 TEST(Residuals, BeyondThreeSigmaThereAreNone) {
   const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
@@ -49,7 +49,7 @@ TEST(Residuals, WherePointsAreNoPlaneTheirGaussianCounts) {
   ASSERT_GT(scatter.variances.minCoeff(), 0.0);
   AdaptiveIcpConfig config;
   config.scatter_noise_m = 0.05;
-  const NormalEquations sums = linearise({{point.cast<float>()}, {}}, map, {}, kScaleM, config);
+  const NormalEquations sums = linearise({{point.cast<float>()}, {}}, map, {}, kResidualScaleM, config);
   Matrix6d H = Matrix6d::Zero();
   Vector6d b = Vector6d::Zero();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -59,7 +59,7 @@ TEST(Residuals, WherePointsAreNoPlaneTheirGaussianCounts) {
     const double e = direction.dot(point - scatter.mean);
     Vector6d J;
     J << point.cross(direction), direction;
-    const double beta = share * kScaleM * kScaleM / (kScaleM * kScaleM + share * e * e);
+    const double beta = share * kResidualScaleM * kResidualScaleM / (kResidualScaleM * kResidualScaleM + share * e * e);
     H += beta * J * J.transpose();
     b += beta * e * J;
   }

@@ -143,8 +143,7 @@ Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdic
   if (past_.size() > kRememberedPoses) {
     past_.erase(past_.begin());
   }
-  if (lost_) {
-    velocity_covariance_ = unknown_velocity_covariance();
+  if (lost_) {  // the velocity stays unknown, see lose()
     if (verdict == MotionVerdict::kJump) {
       step_ = claim_->T_odom_lidar.inverse() * state_.T_odom_lidar;
       step_s_ = seconds_since(claim_->at_ns);

@@ -103,6 +103,12 @@ TEST(BeamCalibration, SparseBeamsAreLeftAlone) {
   EXPECT_EQ(calibration.rms_rad().norm(), 0.0);
 }
 
+TEST(BeamCalibration, FourNeighboursWithinThreeDegreesSuffice) {
+  const BeamCalibration calibration =
+      learnt(0.9, [](Beam beam) { return Eigen::Vector2f(beam % 2 == 0 ? 0.1F : -0.1F, 0.0F); });
+  EXPECT_GT(calibration.rms_rad().x(), 0.03 * kDegree);
+}
+
 TEST(BeamCalibration, NothingSeenNothingLearnt) {
   BeamCalibration calibration(BeamCalibrationConfig{});
   calibration.learn({}, LocalMap({}), {}, 0.3, {});

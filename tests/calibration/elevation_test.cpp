@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include "calibration/elevation_offset.hpp"
@@ -171,84 +172,65 @@ TEST(Elevation, NothingSeenNothingSaid) {
   EXPECT_EQ(estimator.advance(), 0.0);
 }
 
-TEST(Elevation, TheEstimatorFindsWhatASteadyResponsePointsAt) {
-  ElevationOffsetConfig config;
-  ElevationOffsetEstimator estimator(config);
-  const double truth = 0.2 * kDegree;
-  for (int i = 0; i < 100; ++i) {
-    ElevationInformation sweep;
-    sweep.information = 1e9;
-    sweep.jacobian_m = 5.0;
-    sweep.gradient = 0.6 * sweep.information * (truth - estimator.applied_rad());  // weakened by noise
-    estimator.add(sweep);
-    EXPECT_LE(std::abs(estimator.advance()), config.step_deg * kDegree * 1.001);
+// What pose and velocity can explain says nothing of the angle, and moves with it.
+TEST(Elevation, PoseAndVelocityAreEliminated) {
+  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
+  IcpResult icp;
+  icp.state.T_odom_lidar = se3_exp(test::twist(0.0, 0.002, 0.01, 0.6, 0.2, 0.01));
+  TimedCloud source{test::seen_from(icp.state.T_odom_lidar, test::rimless_room(0.23, 0.37, 1.3)), {}};
+  for (const Eigen::Vector3f& p : source.points) {
+    source.offsets_s.push_back(static_cast<float>(0.05 / test::kPi) * std::atan2(p.y(), p.x()));
   }
-  EXPECT_NEAR(estimator.applied_rad(), truth, 0.01 * kDegree);
+  AdaptiveIcpConfig config;
+  config.noise_m = 1.0;  // unit scale
+  config.independent_share = 1.0;
+  config.gate = 0.001;
+  constexpr double kUnitWeights = 1e3;
+  icp.posterior_information = linearise(source, map, icp.state, kUnitWeights, config).hessian();
+  icp.posterior_information.diagonal().array() += 1.0;
+
+  constexpr double kStep = 5e-4;
+  const auto sums_at = [&](double angle_rad) {
+    TimedCloud turned = source;
+    for (Eigen::Vector3f& p : turned.points) {
+      p = ElevationRotation(angle_rad)(p);
+    }
+    LocalMap moved = map;
+    moved.shift_elevation(angle_rad, {});
+    return linearise(turned, moved, icp.state, kUnitWeights, config);
+  };
+  const NormalEquations less = sums_at(-kStep);
+  const NormalEquations more = sums_at(kStep);
+  const Vector12d mixed = (more.gradient() - less.gradient()) / (2.0 * kStep);
+  const double square =
+      0.5 * (more.squared_error + less.squared_error - 2.0 * sums_at(0.0).squared_error) / (kStep * kStep);
+  const Vector12d follows = -icp.posterior_information.ldlt().solve(mixed);
+
+  const ElevationInformation sweep = elevation_information(source, map, icp, kUnitWeights, config, {}, 1);
+  const double expected = square + mixed.dot(follows);
+  EXPECT_LT(expected, 0.5 * square) << "the pose explains most of it";
+  EXPECT_NEAR(sweep.information, expected, 0.1 * expected);
+  EXPECT_LT((sweep.pose.rotation - follows.head<3>()).norm(), 0.1 * follows.head<3>().norm());
+  EXPECT_LT((sweep.pose.translation - follows.segment<3>(3)).norm(), 0.1 * follows.segment<3>(3).norm());
 }
 
-// Sweeps whose residuals point at `truth`.
-void see(ElevationOffsetEstimator& estimator, double truth_rad, int sweeps) {
-  for (int i = 0; i < sweeps; ++i) {
-    ElevationInformation sweep;
-    sweep.information = 1e9;
-    sweep.jacobian_m = 5.0;
-    sweep.gradient = 0.65 * sweep.information * (truth_rad - estimator.applied_rad());
-    estimator.add(sweep);
-    estimator.advance();
+TEST(Elevation, OfASweepInDoubtThePoseStillFollowsTheAngle) {
+  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
+  IcpResult icp;
+  icp.state.T_odom_lidar = se3_exp(test::twist(0.0, 0.002, 0.01, 0.6, 0.2, 0.01));
+  icp.posterior_information = 1e8 * Matrix12d::Identity();
+  PreparedSweep sweep;
+  sweep.source.points = test::seen_from(icp.state.T_odom_lidar, test::rimless_room(0.23, 0.37, 1.3));
+  SensorCalibration calibration({}, BeamCalibrationConfig{false});
+  PoseDerivative before;
+  for (int i = 0; i < 2; ++i) {  // each from the one before
+    calibration.learn(sweep, icp, 0.3, {}, false, map);
+    before = elevation_information(sweep.source, map, icp, 0.3, {}, before, 4).pose;
+    EXPECT_GT(before.translation.norm(), 0.0);
+    EXPECT_EQ(calibration.pose_by_elevation().translation, before.translation);
+    EXPECT_EQ(calibration.pose_by_elevation().rotation, before.rotation);
   }
-}
-
-TEST(Elevation, WhatIsKnownBeforehandIsAppliedAtOnceAndFollowed) {
-  ElevationOffsetConfig config;
-  config.initial_deg = 0.27;  // an early find that was too much: it is 0.21
-  ElevationOffsetEstimator estimator(config);
-  EXPECT_DOUBLE_EQ(estimator.applied_rad(), 0.27 * kDegree);
-  EXPECT_DOUBLE_EQ(estimator.offset_rad(), 0.27 * kDegree);
-  see(estimator, 0.21 * kDegree, 60);
-  EXPECT_NEAR(estimator.applied_rad(), 0.21 * kDegree, 1e-3 * kDegree);
-  config.enabled = false;  // nothing is estimated; what is known counts all the same
-  EXPECT_DOUBLE_EQ(ElevationOffsetEstimator(config).applied_rad(), 0.27 * kDegree);
-  config.enabled = true;
-  config.significance = 1000;
-  ElevationOffsetEstimator fixed(config);
-  see(fixed, 0.21 * kDegree, 60);
-  EXPECT_DOUBLE_EQ(fixed.applied_rad(), 0.27 * kDegree);
-}
-
-TEST(Elevation, StartingOverBeginsWithAnEstimateThatWasCertain) {
-  ElevationOffsetEstimator estimator({});
-  see(estimator, 0.2 * kDegree, 60);
-  const double found = estimator.offset_rad();
-  estimator.start_over();
-  EXPECT_NEAR(estimator.applied_rad(), found, 1e-12);
-  EXPECT_EQ(estimator.offset_rad(), estimator.applied_rad());
-  EXPECT_TRUE(std::isinf(estimator.sigma_rad())) << "the same sweeps come again: they must not count twice";
-  see(estimator, 0.1 * kDegree, 60);
-  EXPECT_NEAR(estimator.applied_rad(), 0.1 * kDegree, 1e-3 * kDegree);
-
-  ElevationOffsetConfig config;
-  config.initial_deg = 0.1;
-  ElevationOffsetEstimator few(config);
-  see(few, 0.4 * kDegree, 3);  // of which nothing is certain
-  few.start_over();
-  EXPECT_DOUBLE_EQ(few.applied_rad(), 0.1 * kDegree);
-}
-
-TEST(Elevation, ACorrectionIsTakenBackWhenNothingIsLeftOfIt) {
-  ElevationOffsetEstimator estimator({});
-  see(estimator, 0.2 * kDegree, 30);
-  EXPECT_NEAR(estimator.applied_rad(), 0.2 * kDegree, 1e-3 * kDegree);
-  see(estimator, 0.0, 300);
-  EXPECT_LT(std::abs(estimator.offset_rad()), estimator.sigma_rad());
-  EXPECT_EQ(estimator.applied_rad(), 0.0);
-}
-
-TEST(Elevation, WhatIsKnownBeforehandIsCorrectedWhenItIsWrong) {
-  ElevationOffsetConfig config;
-  config.initial_deg = 0.3;
-  ElevationOffsetEstimator estimator(config);
-  see(estimator, 0.0, 60);
-  EXPECT_NEAR(estimator.applied_rad(), 0.0, 1e-3 * kDegree);
+  EXPECT_EQ(calibration.elevation().offset_rad(), 0.0) << "nothing is learnt from it";
 }
 
 SweepResult last_of(double bias_deg, const OdometryConfig& config, double* error_deg = nullptr) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -79,7 +80,19 @@ TEST(BeamIndex, BeamByBeamInEitherSenseFromAnyAzimuth) {
 
 TEST(BeamIndex, MotionCompensationDoesNotMixTheBeams) {
   // 2 m during the sweep: the elevation of single points moves by more than the beams are apart.
-  EXPECT_GT(right_share(row_by_row(0.0, 1.0, {2.0F, 0.5F, 0.0F})), 0.98);
+  for (const double direction : {1.0, -1.0}) {
+    EXPECT_GT(right_share(row_by_row(0.0, direction, {2.0F, 0.5F, 0.0F})), 0.98) << direction;
+  }
+}
+
+TEST(BeamIndex, PointsThatComeBackOverABorderDoNotMixTheBeams) {
+  Labelled in = row_by_row(0.0, 1.0, {2.0F, 0.5F, 0.0F});
+  for (std::size_t i = 2; i + 1 < in.rows.size(); i += 3) {  // those beside each border, too
+    if (in.rows[i] == in.rows[i + 1]) {
+      std::swap(in.sweep.points[i], in.sweep.points[i + 1]);
+    }
+  }
+  EXPECT_GT(right_share(in), 0.97);
 }
 
 TEST(BeamIndex, MissingReturnsDoNotMixTheBeams) {

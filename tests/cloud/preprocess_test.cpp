@@ -257,5 +257,59 @@ TEST(PreprocessTest, SceneRangeIsTheSmoothedMedianRange) {
   EXPECT_NEAR(preprocessor.prepare(near).scene_range_m, 10.0, 1e-5);
 }
 
+/// 16 beams, firing by firing, each with its ring; times from `begin_s` on.
+Sweep fired(std::size_t count, float begin_s) {
+  Sweep sweep = room(20.0F, 4.0F, count, 5);
+  for (std::size_t i = 0; i < count; ++i) {
+    sweep.rings.push_back(static_cast<std::uint16_t>(i % 16));
+    sweep.times_s.push_back(begin_s + 0.1F * static_cast<float>(i) / static_cast<float>(count));
+  }
+  return sweep;
+}
+
+TEST(PreprocessTest, TheSampleMeetsAllBeamsAndOtherPointsInTheNextSweep) {
+  const Sweep sweep = fired(16'000, 0.0F);  // four times the sample: an even stride would meet every fourth beam
+  Preprocessor preprocessor(wide_config());
+  EXPECT_TRUE(preprocessor.prepare(sweep).beam_sample.beams.empty()) << "nobody asked";
+  preprocessor.track_beams(true);
+  const BeamSample first = preprocessor.prepare(sweep).beam_sample;
+  EXPECT_EQ(first.beams.size(), 3200U);
+  EXPECT_EQ(first.cloud.offsets_s.size(), 3200U);
+  EXPECT_EQ(std::set<Beam>(first.beams.begin(), first.beams.end()).size(), 16U);
+  const BeamSample second = preprocessor.prepare(sweep).beam_sample;
+  EXPECT_NE(second.cloud.points.front(), first.cloud.points.front());
+}
+
+TEST(PreprocessTest, ResetForgetsWhatSweepsAndCalibrationTaught) {
+  PreprocessConfig config = wide_config();
+  Preprocessor fresh(config);
+  fresh.track_beams(true);
+  Preprocessor used(config);
+  used.track_beams(true);
+  BeamAngles angles;
+  angles.at(3) = {0.01F, 0.02F};
+  used.set_beam_angles(angles);
+  used.set_elevation_offset(0.01);
+  used.set_source_points(500.0);
+  used.prepare(fired(20'000, -0.2F));
+  used.reset();
+  const Sweep sweep = fired(20'000, 0.0F);
+  const PreparedSweep& expected = fresh.prepare(sweep);
+  const PreparedSweep& after = used.prepare(sweep);
+  EXPECT_EQ(after.mid_stamp_ns, expected.mid_stamp_ns);
+  EXPECT_EQ(after.scene_range_m, expected.scene_range_m);
+  EXPECT_EQ(after.source.points, expected.source.points);
+  EXPECT_EQ(after.source.offsets_s, expected.source.offsets_s);
+  EXPECT_EQ(after.beam_sample.cloud.points, expected.beam_sample.cloud.points);
+}
+
+TEST(PreprocessTest, FewerWantedPointsAreFoundAtOnce) {
+  const Sweep usual = room(20.0F, 4.0F, 60'000, 3);
+  Preprocessor preprocessor(wide_config());
+  for (int i = 0; i < 5; ++i) preprocessor.prepare(usual);
+  preprocessor.set_source_points(750.0);  // a quarter: voxels twice as wide
+  EXPECT_NEAR(static_cast<double>(preprocessor.prepare(usual).source.size()), 750.0, 150.0);
+}
+
 }  // namespace
 }  // namespace rilo

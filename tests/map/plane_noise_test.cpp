@@ -171,5 +171,16 @@ TEST(PlaneGridTest, AVolumeIsAGaussian) {
   }
 }
 
+TEST(PlaneGridTest, ANormalBelowThreeTenthsOfReliabilityIsNone) {
+  PlaneCriteria criteria{6, 1000, 0.1, 0.01};
+  criteria.angle_noise_rad = 0.001;
+  for (const double lambda : {0.27, 0.33}) {
+    const double D = std::sqrt(1e-4 * lambda / (1.0 - lambda));  // as above
+    MapPlane plane;
+    EXPECT_EQ(tilt_of(ground_rings(2, 2.0 * D / std::sin(kGrazing), 0.0, 4), criteria, plane) >= 0.0, lambda > 0.3)
+        << lambda;
+  }
+}
+
 }  // namespace
 }  // namespace rilo

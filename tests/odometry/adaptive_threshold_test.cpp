@@ -49,5 +49,30 @@ TEST(AdaptiveThreshold, ForgetsAndWidensAfterFailures) {
   EXPECT_LT(threshold.sigma_th_m(), sigma);
 }
 
+TEST(AdaptiveThreshold, WhatCountsIsTheChangeOfTheAcceleration) {
+  AdaptiveThreshold threshold({});
+  const Eigen::Vector3d steady(1.5, 0.0, 0.0);
+  threshold.update(moved(0.0), moved(0.3), steady);
+  EXPECT_NEAR(threshold.gamma(), std::exp(-1.0), 1e-12);
+  threshold.update(moved(0.0), moved(0.3), steady);
+  EXPECT_EQ(threshold.gamma(), 1.0);
+}
+
+TEST(AdaptiveThreshold, StaysWithinItsBoundsAndGrowsAtMost64Times) {
+  AdaptiveThresholdConfig config;
+  AdaptiveThreshold threshold(config);
+  threshold.update(moved(0.0), moved(0.001), Eigen::Vector3d::Zero());
+  EXPECT_EQ(threshold.sigma_th_m(), config.floor_m);
+  threshold.reset();
+  threshold.update(moved(0.0), moved(5.0), Eigen::Vector3d::Zero());
+  EXPECT_EQ(threshold.sigma_th_m(), config.ceiling_m);
+  config.ceiling_m = 1e6;
+  AdaptiveThreshold high(config);
+  for (int lost = 0; lost < 10; ++lost) {
+    high.widen();
+  }
+  EXPECT_NEAR(high.sigma_th_m(), 64.0 * config.initial_m, 1e-9);
+}
+
 }  // namespace
 }  // namespace rilo

@@ -139,5 +139,78 @@ TEST(Judging, DegeneracyIsSaid) {
   EXPECT_EQ(judge(icp, evidence(0.8), kHealth), OdometryStatus::kDegenerate);
 }
 
+/// A sweep of a place of this size (m).
+PreparedSweep sweep_of(double range_m) {
+  PreparedSweep prepared;
+  prepared.source.points.resize(1000, Eigen::Vector3f::UnitX());
+  prepared.median_range_m = range_m;
+  return prepared;
+}
+
+Registration fitting() {
+  Registration registration;
+  registration.icp = registered();
+  registration.score = 0.8;
+  return registration;
+}
+
+TEST(SweepJudge, APlaceOfLessThanAThirdOfTheLastIsACover) {
+  SweepJudge judge(kHealth);
+  judge.begin(sweep_of(60.0));
+  judge.accept(sweep_of(30.0));
+  const auto at = [&](double range_m) {
+    return judge.judge(sweep_of(range_m), fitting(), MotionVerdict::kPossible, {10, 0.8, false});
+  };
+  EXPECT_EQ(at(10.1).status, OdometryStatus::kOk);
+  EXPECT_EQ(at(9.9).status, OdometryStatus::kLost);
+  EXPECT_FALSE(at(9.9).fits_map);
+  judge.accept(sweep_of(15.0));
+  EXPECT_EQ(at(9.9).status, OdometryStatus::kOk);
+}
+
+TEST(SweepJudge, AMotionThatIsImpossibleIsAClaim) {
+  const SweepJudge judge(kHealth);
+  const auto after = [&](MotionVerdict motion) {
+    return judge.judge(sweep_of(10.0), fitting(), motion, {10, 0.8, true});
+  };
+  EXPECT_EQ(after(MotionVerdict::kImpossible).status, OdometryStatus::kLost);
+  EXPECT_TRUE(after(MotionVerdict::kImpossible).fits_map);
+  EXPECT_EQ(after(MotionVerdict::kJump).status, OdometryStatus::kRecovered);
+}
+
+TEST(SweepJudge, AnEstablishedMapIsGivenUpAfterTenLossesInARow) {
+  SweepJudge judge(kHealth);
+  EXPECT_TRUE(judge.give_up(false)) << "a young map may be the wrong one";
+  judge.begin(sweep_of(10.0));
+  for (int round = 0; round < 2; ++round) {
+    for (int lost = 1; lost < kHealth.restart_after; ++lost) {
+      EXPECT_FALSE(judge.give_up(true)) << lost;
+    }
+    judge.accept(sweep_of(10.0));
+  }
+  for (int lost = 1; lost < kHealth.restart_after; ++lost) {
+    judge.give_up(true);
+  }
+  EXPECT_TRUE(judge.give_up(true));
+}
+
+TEST(SweepJudge, AfterTenBeginningsInARowASecondSweepMayLeaveADirectionOpen) {
+  SweepJudge judge(kHealth);
+  Registration along_a_road = fitting();
+  along_a_road.icp.degeneracy.relative_eigenvalues[0] = 0.5 * kHealth.degenerate_ratio;
+  const auto second = [&] {
+    return judge.judge(sweep_of(10.0), along_a_road, MotionVerdict::kPossible, {1, 0.8, false}).status;
+  };
+  for (int i = 0; i < 10; ++i) {
+    judge.begin(sweep_of(10.0));
+    EXPECT_EQ(second(), OdometryStatus::kLost) << i;
+  }
+  judge.begin(sweep_of(10.0));
+  EXPECT_EQ(second(), OdometryStatus::kDegenerate);
+  judge.accept(sweep_of(10.0));
+  judge.begin(sweep_of(10.0));
+  EXPECT_EQ(second(), OdometryStatus::kLost) << "no longer in a row";
+}
+
 }  // namespace
 }  // namespace rilo

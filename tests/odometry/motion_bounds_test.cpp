@@ -41,5 +41,26 @@ TEST(MotionBounds, GapsAndStampsOfArrivalAreAllowedFor) {
   EXPECT_TRUE(possible_motion(along_x(2.0), 0.13, along_x(2.0), 0.07, kBounds));
 }
 
+TEST(MotionBounds, TheTurnRateChangesByTheAngularAcceleration) {
+  // 50 rad/s² · 0.1 s · 0.1 s and twice 0.02 rad of noise: 0.54 rad.
+  EXPECT_TRUE(possible_motion(yawed(0.53), 0.1, yawed(0.0), 0.1, kBounds));
+  EXPECT_FALSE(possible_motion(yawed(0.55), 0.1, yawed(0.0), 0.1, kBounds));
+}
+
+TEST(MotionBounds, OfUnevenStepsTheMiddlesCount) {
+  // 0.3 s after a step of 0.1 s: their middles are 0.2 s apart, 30 m/s² · 0.2 s · 0.3 s; the step before is carried on
+  // three times as long, and so is its noise: 3 m ± 2.2 m.
+  EXPECT_TRUE(possible_motion(along_x(5.19), 0.3, along_x(1.0), 0.1, kBounds));
+  EXPECT_FALSE(possible_motion(along_x(5.21), 0.3, along_x(1.0), 0.1, kBounds));
+}
+
+TEST(MotionBounds, BeyondThreeTimesTheStepTheStampIsNoJitter) {
+  // To stand still, or nearly, at once: only if the stamps are wrong and the motion per sweep is the same, ± 2.1 m.
+  EXPECT_TRUE(possible_motion(along_x(-0.5), 0.29, along_x(1.0), 0.1, kBounds));
+  // 4 m ± 3.5 m by the stamps.
+  EXPECT_TRUE(possible_motion(along_x(0.51), 0.4, along_x(1.0), 0.1, kBounds));
+  EXPECT_FALSE(possible_motion(along_x(0.49), 0.4, along_x(1.0), 0.1, kBounds));
+}
+
 }  // namespace
 }  // namespace rilo

@@ -63,5 +63,11 @@ TEST(MotionPrior, SwitchedOffItSaysNothing) {
   EXPECT_EQ(motion_prior({}, Matrix6d::Identity(), {0.1}, config).information, Matrix12d::Zero());
 }
 
+TEST(MotionPrior, AnUnknownVelocityIsThatOfACarOrAHand) {
+  Vector6d squares;
+  squares << 1.0, 1.0, 1.0, 400.0, 400.0, 400.0;  // (1 rad/s)², (20 m/s)²
+  EXPECT_EQ(unknown_velocity_covariance(), Matrix6d(squares.asDiagonal()));
+}
+
 }  // namespace
 }  // namespace rilo

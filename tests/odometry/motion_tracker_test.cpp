@@ -1,6 +1,9 @@
 // What enters the motion and what does not.
 #include "odometry/motion_tracker.hpp"
 
+#include <cmath>
+
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 namespace rilo {
@@ -122,7 +125,11 @@ double information_when_swayed(bool lost_between) {
 }
 
 TEST(MotionTracker, LearnsHowItIsTurnedFromSweepsInARow) {
-  EXPECT_LT(information_when_swayed(false), information_when_swayed(true));
+  MotionTracker untaught = driving();
+  untaught.advance(after(kStepNs));
+  const double configured = untaught.prior(MotionState{}).information(6, 6);
+  EXPECT_LT(information_when_swayed(false), 0.9 * configured);
+  EXPECT_EQ(information_when_swayed(true), configured);
 }
 
 TEST(MotionTracker, AJumpIsTakenWhenTwoSweepsAgreeAndGivesNoVelocity) {
@@ -145,6 +152,151 @@ TEST(MotionTracker, AnImpossibleMotionImpliesNoVelocity) {
   tracker.advance(after(kStepNs));
   EXPECT_NEAR(tracker.implied_twist(at(3.2).state.T_odom_lidar)[3], 12.0, 1e-9);
   EXPECT_NEAR(tracker.implied_twist(at(9.0).state.T_odom_lidar)[3], 10.0, 1e-9);
+}
+
+TEST(MotionTracker, AJumpLeavesTheVelocityFromBefore) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  tracker.lose(tracker.predicted(0.3), at(9.0).state.T_odom_lidar);
+  tracker.advance(after(kStepNs));
+  IcpResult jump = at(10.0);
+  jump.state.twist[3] = 40.0;  // what the way there implies
+  tracker.accept(jump, MotionVerdict::kJump, false);
+  EXPECT_NEAR(tracker.trusted().twist[3], 10.0, 1e-12);
+}
+
+TEST(MotionTracker, TwoClaimsInARowMayMoveOtherwiseThanBefore) {
+  MotionTracker tracker = driving();
+  const auto claimed = [&](double x) {
+    tracker.advance(after(kStepNs));
+    tracker.lose(tracker.predicted(0.3), at(x).state.T_odom_lidar);
+  };
+  claimed(50.0);
+  claimed(54.0);
+  tracker.advance(after(kStepNs));
+  EXPECT_EQ(tracker.weigh(at(58.0).state.T_odom_lidar), MotionVerdict::kJump) << "40 m/s as from claim to claim";
+  EXPECT_EQ(tracker.weigh(at(55.0).state.T_odom_lidar), MotionVerdict::kJump) << "10 m/s as before the loss";
+  EXPECT_EQ(tracker.weigh(at(56.5).state.T_odom_lidar), MotionVerdict::kImpossible);
+}
+
+TEST(MotionTracker, AClaimIsForTheNextSweepAlone) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  tracker.lose(tracker.predicted(0.3), at(9.0).state.T_odom_lidar);
+  MotionTracker accepted = tracker;
+  tracker.advance(after(kStepNs));
+  ASSERT_TRUE(tracker.predicted_from_claim());
+  tracker.lose(tracker.predicted(0.3), std::nullopt);
+  EXPECT_FALSE(tracker.predicted_from_claim());
+  accepted.advance(after(kStepNs));
+  accepted.accept(at(4.0), MotionVerdict::kPossible, false);
+  EXPECT_FALSE(accepted.predicted_from_claim());
+}
+
+TEST(MotionTracker, AfterALongLossTheMotionBeforeIsNoEvidence) {
+  const auto next_after_losses = [](int losses) {
+    MotionTracker tracker = driving();
+    for (int i = 0; i < losses; ++i) {
+      tracker.advance(after(kStepNs));
+      tracker.lose(tracker.predicted(0.3), std::nullopt);
+    }
+    tracker.advance(after(kStepNs));
+    tracker.accept(at(3.0 + losses), MotionVerdict::kPossible, false);
+    tracker.advance(after(kStepNs));
+    return tracker.weigh(at(8.0 + losses).state.T_odom_lidar);  // 5 m on, at 50 m/s
+  };
+  EXPECT_EQ(next_after_losses(1), MotionVerdict::kImpossible) << "it had 10 m/s";
+  EXPECT_EQ(next_after_losses(4), MotionVerdict::kPossible);
+}
+
+Matrix12d covariance_of(const MotionPrior& prior) { return prior.information.ldlt().solve(Matrix12d::Identity()); }
+
+TEST(MotionTracker, AfterALossTheVelocityIsNotKnown) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  EXPECT_NEAR(covariance_of(tracker.prior(std::nullopt))(9, 9), 1.0 + 0.1 * 10.0, 1e-6);
+  tracker.lose(tracker.predicted(0.3), std::nullopt);
+  tracker.advance(after(kStepNs));
+  EXPECT_NEAR(covariance_of(tracker.prior(std::nullopt))(9, 9), 400.0 + 0.2 * 10.0, 1e-3);
+  tracker.accept(at(4.0), MotionVerdict::kPossible, false);
+  tracker.advance(after(kStepNs));
+  EXPECT_NEAR(covariance_of(tracker.prior(std::nullopt))(9, 9), 400.0 + 0.1 * 10.0, 1e-3) << "nor when found again";
+  EXPECT_NEAR(tracker.predicted(0.3).earlier.lag_s, 0.1, 1e-9) << "but its changes count again";
+}
+
+TEST(MotionTracker, WhatADegenerateSweepDoesNotSeeKeepsItsVelocity) {
+  MotionTracker tracker({}, {}, {});
+  tracker.begin({});
+  tracker.advance(after(kStepNs));
+  tracker.accept(at(1.0), MotionVerdict::kPossible, false);
+  tracker.advance(after(kStepNs));
+  IcpResult second = at(2.0);
+  second.state.earlier = tracker.predicted(0.3).earlier;
+  second.state.twist[3] += 1.0;  // 10 m/s²
+  tracker.accept(second, MotionVerdict::kPossible, true);
+  tracker.advance(after(kStepNs));
+  // A fifth of the configured 10 m/s², squared, over 0.1 s.
+  EXPECT_NEAR(covariance_of(tracker.prior(std::nullopt))(9, 9), 1.0 + 0.1 * 0.4, 1e-9);
+  MotionState state = tracker.predicted(0.3);
+  state.twist[3] += 2.0;
+  EXPECT_NEAR(state.motion().acceleration[3], 20.0, 1e-9) << "nothing of its change goes on";
+}
+
+TEST(MotionTracker, ThePriorOfTheSweepBeforeLooksBack) {
+  MotionTracker tracker({}, {}, {});
+  tracker.begin({});
+  tracker.advance(after(2 * kStepNs));
+  const MotionPrior prior = tracker.prior_before(at(3.0));
+  EXPECT_NEAR(prior.state.T_odom_lidar.translation().x(), 1.0, 1e-12) << "10 m/s, 0.2 s ago";
+  EXPECT_NEAR(prior.state.twist[3], 10.0, 1e-12);
+  EXPECT_NEAR(covariance_of(prior)(3, 9), -(0.2 + 0.02 * 10.0), 1e-6);
+}
+
+TEST(MotionTracker, ANewMapBeginsWithoutWhatWas) {
+  MotionTracker tracker = driving();
+  tracker.advance({.step_ns = kStepNs, .even_ns = kStepNs});
+  tracker.accept(at(3.0), MotionVerdict::kPossible, true);
+  tracker.advance({.step_ns = kStepNs + kStepNs / 5, .even_ns = kStepNs});
+  tracker.lose(tracker.predicted(0.3), at(9.0).state.T_odom_lidar);
+  MotionState moving;
+  moving.twist[3] = 10.0;
+  tracker.begin(moving);
+  tracker.advance(after(kStepNs));
+  EXPECT_FALSE(tracker.lost());
+  EXPECT_FALSE(tracker.degenerate());
+  EXPECT_FALSE(tracker.predicted_from_claim());
+  EXPECT_EQ(tracker.weigh(at(5.0).state.T_odom_lidar), MotionVerdict::kPossible) << "50 m/s at once";
+  MotionTracker fresh({}, {}, {});
+  fresh.begin(moving);
+  fresh.advance(after(kStepNs));
+  EXPECT_TRUE(tracker.prior(std::nullopt).information.isApprox(fresh.prior(std::nullopt).information, 1e-12));
+}
+
+TEST(MotionTracker, AfterAJumpTheStepIsThatFromClaimToClaim) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  tracker.lose(tracker.predicted(0.3), at(50.0).state.T_odom_lidar);
+  tracker.advance(after(kStepNs));
+  tracker.lose(tracker.predicted(0.3), at(54.0).state.T_odom_lidar);
+  tracker.advance(after(kStepNs));
+  tracker.accept(at(58.0), MotionVerdict::kJump, false);
+  tracker.advance(after(kStepNs));
+  EXPECT_EQ(tracker.weigh(at(62.0).state.T_odom_lidar), MotionVerdict::kPossible);
+  EXPECT_EQ(tracker.weigh(at(59.0).state.T_odom_lidar), MotionVerdict::kImpossible);
+}
+
+TEST(MotionTracker, ThePriorExpectsTurnsToEndAndPosesStayRotations) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  IcpResult turning = at(3.0);
+  turning.state.twist[2] = 1.0;
+  turning.state.T_odom_lidar.linear()(0, 0) += 1e-6;  // rounded again and again
+  tracker.accept(turning, MotionVerdict::kPossible, false);
+  EXPECT_TRUE(tracker.trusted().T_odom_lidar.linear().isUnitary(1e-12));
+  tracker.advance(after(kStepNs));
+  const MotionPrior prior = tracker.prior(std::nullopt);
+  EXPECT_NEAR(prior.state.twist[2], std::exp(-0.1), 1e-9);
+  EXPECT_NEAR(rotation_angle_rad(prior.state.T_odom_lidar), 0.1 * std::exp(-0.1), 1e-6);
 }
 
 }  // namespace

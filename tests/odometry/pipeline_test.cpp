@@ -113,6 +113,36 @@ TEST(Pipeline, ResetStartsAnew) {
   }
 }
 
+TEST(Pipeline, ResetForgetsAnotherDrive) {
+  Odometry used({});
+  for (int i = 0; i < 8; ++i) {  // jerks, at 20 Hz
+    used.register_sweep(room_sweep(along_x(0.05 * (i % 2)), 1'000'000'000 + 50'000'000LL * i));
+  }
+  used.reset();
+  Odometry fresh({});
+  const DriveSimulator simulator(small_drive(2.0, 4));
+  for (std::size_t i = 0; i < simulator.size(); ++i) {
+    const Sweep sweep = simulator.sweep(i).sweep;
+    const SweepResult expected = fresh.register_sweep(sweep);
+    const SweepResult result = used.register_sweep(sweep);
+    EXPECT_EQ(result.T_odom_lidar.matrix(), expected.T_odom_lidar.matrix()) << i;
+    EXPECT_EQ(result.covariance, expected.covariance) << i;
+    EXPECT_EQ(result.stamp_ns, expected.stamp_ns) << i;
+    EXPECT_EQ(result.stats.sigma_th_m, expected.stats.sigma_th_m) << i;
+    EXPECT_EQ(result.stats.gamma, expected.stats.gamma) << i;
+  }
+}
+
+TEST(Pipeline, BeamsAreLearntFromTheFourthSweepOfAMapOn) {
+  DriveConfig config = small_drive(4.0, 5);
+  config.sensor = SensorKind::kOs1;
+  const Outcome run = drive({}, config);
+  for (std::size_t i = 0; i < run.results.size(); ++i) {
+    ASSERT_EQ(run.results[i].status, i == 0 ? OdometryStatus::kInitialising : OdometryStatus::kOk);
+    EXPECT_EQ(run.results[i].stats.beam_elevation_rms_rad > 0.0, i >= 3) << i;
+  }
+}
+
 TEST(Pipeline, EmptyAndNanSweepsArePassedOver) {
   Odometry odometry({});
   const SweepResult nothing = odometry.register_sweep({});

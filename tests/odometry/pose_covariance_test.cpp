@@ -72,5 +72,16 @@ TEST(PoseCovarianceByHand, IsInTheSensorsOwnAxes) {
   EXPECT_NEAR(C(4, 4), 0.01, 1e-6);
 }
 
+TEST(PoseCovarianceByHand, OfWhatAHandShakesFourTenthsCountOnAverage) {
+  const IcpResult icp = with_information(1e12, 0.0);
+  const Vector6d shaken = 1e-4 * Vector6d::Unit(4);
+  PoseCovariance covariance;
+  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.0, shaken)(4, 4), 0.4 * 0.2 * 1e-4, 1e-12);
+  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.0, shaken)(4, 4), 0.4 * 0.36 * 1e-4, 1e-12);
+  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.0, Vector6d::Zero())(4, 4), 0.4 * 0.288 * 1e-4, 1e-12);
+  covariance.reset();
+  EXPECT_NEAR(covariance.of(icp, false, Vector6d::Zero(), 0.0, Vector6d::Zero())(4, 4), 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace rilo

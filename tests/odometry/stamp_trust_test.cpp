@@ -25,27 +25,31 @@ struct Behaviour {
   double speed = kForwardSpeed;  // m/s along x
 };
 
+/// A sweep taken `uneven_s` and stamped `deviation_s` after the tick of an even clock.
+void take(StampTrust& trust, const Behaviour& behaviour, double uneven_s, double deviation_s) {
+  MotionState last;
+  last.twist[3] = behaviour.speed;
+  const MotionState expected = expected_motion(last, kEvenStepS + trust.share() * deviation_s);
+  const MotionPrior prior = motion_prior(expected, kVelocityKnown, {kEvenStepS}, {});
+  const MotionPrior used = motion_prior(expected, kVelocityKnown, {kEvenStepS, trust.error_s(deviation_s)}, {});
+  IcpResult icp;
+  icp.sweep_information.diagonal().head<6>().setConstant(behaviour.information);
+  if (!behaviour.sees_the_way) {
+    icp.sweep_information(3, 3) = 0.0;
+  }
+  Vector12d seen = Vector12d::Zero();  // of the sweep alone, from the mean of the prior
+  seen[3] = behaviour.speed * (kEvenStepS + uneven_s) - expected.T_odom_lidar.translation().x();
+  icp.posterior_information = used.information + icp.sweep_information;
+  icp.state = perturbed(expected, icp.posterior_information.ldlt().solve(icp.sweep_information * seen));
+  trust.learn(deviation_s, prior, icp);
+}
+
 void learn(StampTrust& trust, const Behaviour& behaviour, int sweeps, unsigned seed = 1) {
   std::mt19937 rng(seed);
   std::normal_distribution<double> normal;
   for (int i = 0; i < sweeps; ++i) {
     const double uneven_s = behaviour.uneven_s * normal(rng);
-    const double deviation_s = uneven_s + behaviour.late_s * normal(rng);
-    MotionState last;
-    last.twist[3] = behaviour.speed;
-    const MotionState expected = expected_motion(last, kEvenStepS + trust.share() * deviation_s);
-    const MotionPrior prior = motion_prior(expected, kVelocityKnown, {kEvenStepS}, {});
-    const MotionPrior used = motion_prior(expected, kVelocityKnown, {kEvenStepS, trust.error_s(deviation_s)}, {});
-    IcpResult icp;
-    icp.sweep_information.diagonal().head<6>().setConstant(behaviour.information);
-    if (!behaviour.sees_the_way) {
-      icp.sweep_information(3, 3) = 0.0;
-    }
-    Vector12d seen = Vector12d::Zero();  // of the sweep alone, from the mean of the prior
-    seen[3] = behaviour.speed * (kEvenStepS + uneven_s) - expected.T_odom_lidar.translation().x();
-    icp.posterior_information = used.information + icp.sweep_information;
-    icp.state = perturbed(expected, icp.posterior_information.ldlt().solve(icp.sweep_information * seen));
-    trust.learn(deviation_s, prior, icp);
+    take(trust, behaviour, uneven_s, uneven_s + behaviour.late_s * normal(rng));
   }
 }
 
@@ -114,6 +118,20 @@ TEST(StampTrust, WithoutAPriorStampsAreBelieved) {
   icp.state.T_odom_lidar.translation().x() = 1.0;
   trust.learn(0.01, {}, icp);
   EXPECT_EQ(trust.share(), 1.0);
+}
+
+TEST(StampTrust, WhatRunsAgainstTheStampsCountsAsMuchAsWhatFollowsThem) {
+  StampTrust trust;
+  for (int i = 0; i < 20; ++i) {
+    const double late_s = i % 2 == 0 ? 0.01 : -0.01;
+    take(trust, {}, -late_s, late_s);
+  }
+  EXPECT_EQ(trust.share(), 0.0) << "never less than nothing";
+  for (int i = 0; i < 30; ++i) {
+    const double late_s = i % 2 == 0 ? 0.01 : -0.01;
+    take(trust, {}, late_s, late_s);
+  }
+  EXPECT_NEAR(trust.share(), (30.0 - 20.0) / 50.0, 0.1);
 }
 
 }  // namespace

@@ -128,5 +128,19 @@ TEST(SweepClock, ExtremeStampsDoNotOverflow) {
   }
 }
 
+TEST(SweepClock, AfterAStampInDoubtStepsCountAsTheyAre) {
+  SweepClock clock;
+  EXPECT_EQ(steps_ms(clock, {0, 100, 200, 1'000'300, 400, 520, 610}),
+            (std::vector<std::int64_t>{0, 100, 100, 100, 100, 120, 90}));
+}
+
+TEST(SweepClock, NoSensorSpinsInHalfAMillisecond) {
+  SweepClock clock;
+  steps_ms(clock, {0, 100, 200});
+  const SweepTime time = clock.advance(200 * kMs + kMs / 2);
+  EXPECT_FALSE(time.believed);
+  EXPECT_EQ(time.step_ns, 100 * kMs);
+}
+
 }  // namespace
 }  // namespace rilo

@@ -228,6 +228,26 @@ TEST(TimeBudgetPipeline, AnImpossibleBudgetGivesAPoseAndSaysSo) {
   }
 }
 
+TEST(TimeBudgetPipeline, ResetForgetsWhatWorkCosts) {
+  const DriveSimulator drive = short_drive();
+  OdometryConfig config;
+  config.budget.sweep_ms = 80.0;
+  config.threads = 1;
+  TickingClock clock(1.0);
+  Odometry odometry(config, clock.reader());
+  std::vector<SweepResult> first;
+  for (std::size_t i = 0; i < 5; ++i) {
+    first.push_back(odometry.register_sweep(drive.sweep(i).sweep));
+  }
+  EXPECT_GT(count(first, &SweepStats::points_cut), 0U) << "or nothing depends on it";
+  odometry.reset();
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const SweepResult again = odometry.register_sweep(drive.sweep(i).sweep);
+    EXPECT_EQ(again.stats.points_source, first[i].stats.points_source) << i;
+    EXPECT_EQ(again.T_odom_lidar.matrix(), first[i].T_odom_lidar.matrix()) << i;
+  }
+}
+
 TEST(TimeBudgetPipeline, ABudgetNeedsAClock) {
   OdometryConfig config;
   config.budget.sweep_ms = 50.0;

@@ -93,5 +93,33 @@ TEST(TurnNoise, SwitchedOffTheConfiguredOneStays) {
   }
 }
 
+/// Sways about an axis of its own, at a heading, from sweep to sweep.
+double learnt_at(double dt_s, bool turned_between) {
+  TurnNoise noise({});
+  for (int i = 0; i < 400; ++i) {
+    const double acceleration = i % 4 < 2 ? 6.0 : -6.0;
+    MotionState before;
+    if (turned_between && i % 2 == 1) {
+      before.T_odom_lidar.linear() = so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * M_PI));
+    }
+    const Eigen::Vector3d axis = before.T_odom_lidar.linear().col(0);
+    Vector12d change = Vector12d::Zero();
+    change.head<3>() = 0.5 * dt_s * dt_s * acceleration * axis;
+    change.segment<3>(6) = dt_s * acceleration * axis;
+    IcpResult icp;
+    icp.state = perturbed(before, change);
+    icp.sweep_information = 1e12 * Matrix12d::Identity();
+    noise.learn(before, 1e-12 * Matrix6d::Identity(), {dt_s}, icp);
+  }
+  return expected(noise);
+}
+
+TEST(TurnNoise, TheAxesAreThoseOfTheSensor) { EXPECT_NEAR(learnt_at(kDt, true), 6.0, 0.1); }
+
+TEST(TurnNoise, AnAccelerationIsThatWhateverTheStep) {
+  // Over a longer step a random walk moves less per second: by the root of the time.
+  EXPECT_NEAR(learnt_at(2.0 * kDt, false), 6.0 * std::sqrt(2.0), 0.15);
+}
+
 }  // namespace
 }  // namespace rilo

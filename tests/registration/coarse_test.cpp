@@ -130,5 +130,32 @@ TEST(CoarseRegistrationHostile, OneLineAndOnePlaceStayFinite) {
   }
 }
 
+TEST(CoarseRegistrationStart, AnnealingTakesHalfOfTheIterations) {
+  const CoarseRegistrationConfig config;  // 20 iterations
+  const DistributionCloud target = make_distribution_cloud(room(SE3::Identity(), 1), config);
+  const CoarseResult result = coarse_registration(target, target, SE3::Identity(), config);
+  EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.iterations, 11) << "there from the first on";
+}
+
+TEST(DistributionClouds, LoosePointsAreLeftOutAndNeighboursAreSoughtFourTimesAsFar) {
+  CoarseRegistrationConfig config;  // 2 m
+  config.density_percentile = 1.5;  // of 101 points the one with the fewest around it
+  std::vector<Eigen::Vector3f> points;
+  for (int x = 0; x < 10; ++x) {
+    for (int y = 0; y < 10; ++y) {
+      points.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0F);
+    }
+  }
+  points.emplace_back(0.0F, 0.0F, 15.0F);
+  EXPECT_EQ(make_distribution_cloud(points, config).size(), 100U);
+  // Alone, 7 m from a cluster: its neighbours are within 8 m.
+  config.density_percentile = 0.0;
+  points = {{0, 0, 0}, {7, 0, 0}, {7, 0.5F, 0}, {7, 0, 0.5F}, {7.5F, 0, 0}};
+  EXPECT_GT(make_distribution_cloud(points, config).covariances.front().norm(), 1.0F);
+  points.front().x() = -2.0F;
+  EXPECT_EQ(make_distribution_cloud(points, config).covariances.front(), Eigen::Matrix3f::Zero());
+}
+
 }  // namespace
 }  // namespace rilo

@@ -247,5 +247,34 @@ TEST(AdaptiveIcpCorridor, TwoWallsAndAPlaneKeepWhatTheyCannotSee) {
   }
 }
 
+// 20 cm and more: no wall is within three times 3 cm. The strided cloud begins with three times that.
+TEST_F(ExactRoom, ANarrowGateBeginsWide) {
+  const SE3 truth = se3_exp(twist(0, 0, 0.005, 0.2, -0.2, 0.2));
+  const TimedCloud source{test::seen_from(truth, test::rimless_room(0.12, 0.37, 1.3)), {}};
+  ASSERT_GT(source.size(), 4000U);
+  const IcpResult result = adaptive_icp(source, map_, {}, {}, 0.03, precise());
+  EXPECT_TRUE(result.converged());
+  EXPECT_LT(distance_m(truth, result.state.T_odom_lidar), 1e-3);
+}
+
+TEST_F(ExactRoom, AfterSixteenIterationsMatchesAreHeld) {
+  const TimedCloud source{test::seen_from(SE3::Identity(), test::rimless_room(0.23, 0.37, 1.3)), {}};
+  AdaptiveIcpConfig config;
+  config.epsilon = 0.0;  // never
+  config.max_iterations = 15;
+  EXPECT_FALSE(adaptive_icp(source, map_, {}, {}, 0.3, config).frozen);
+  config.max_iterations = 16;
+  EXPECT_TRUE(adaptive_icp(source, map_, {}, {}, 0.3, config).frozen);
+}
+
+TEST_F(ExactRoom, TheSecondHalfOfTheIterationsLooksAtAllPoints) {
+  const TimedCloud source{test::seen_from(SE3::Identity(), test::rimless_room(0.12, 0.37, 1.3)), {}};
+  ASSERT_GT(source.size(), 4000U);
+  AdaptiveIcpConfig config;
+  config.epsilon = 0.0;  // never converged
+  config.max_iterations = 4;
+  EXPECT_GT(adaptive_icp(source, map_, {}, {}, 0.3, config).inliers, source.size() / 2);
+}
+
 }  // namespace
 }  // namespace rilo

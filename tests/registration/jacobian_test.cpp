@@ -181,6 +181,18 @@ TEST(PointToPlaneJacobian, AStrideLooksAtEveryNthPoint) {
   EXPECT_LT((strided.gradient() - picked.gradient()).norm(), 1e-4 * picked.gradient().norm());
 }
 
+TEST(PointToPlaneJacobian, HeldMatchesAreKeptWhereverThePointsMove) {
+  const Scene scene(Vector6d::Zero());
+  constexpr double kWideM = 10.0;
+  PlaneMatches matches;
+  const std::size_t count = matches.linearise(scene.cloud, scene.map, scene.state, kWideM, {}, 1).count;
+  matches.freeze();
+  MotionState far = scene.state;
+  far.T_odom_lidar.translation() += Eigen::Vector3d(2.0, 2.0, 2.0);
+  EXPECT_EQ(matches.linearise(scene.cloud, scene.map, far, kWideM, {}, 1).count, count);
+  EXPECT_LT(linearise(scene.cloud, scene.map, far, kWideM, {}).count, count / 2);
+}
+
 TEST(Perturbed, MovesAlongTheAxesOfTheOdometryFrame) {
   MotionState state;
   state.T_odom_lidar = se3_exp(twist(0, 0, test::kPi / 2, 0, 0, 0));  // sensor's x is the frame's y
@@ -192,6 +204,18 @@ TEST(Perturbed, MovesAlongTheAxesOfTheOdometryFrame) {
   EXPECT_NEAR(rotation_angle_rad(moved.T_odom_lidar), test::kPi / 2 + 0.1, 1e-12);
   EXPECT_TRUE(moved.twist.isApprox(twist(0, 0, 0.2, 4, 0, 0), 1e-12));
   EXPECT_TRUE(perturbed(state, Vector12d::Zero()).T_odom_lidar.isApprox(state.T_odom_lidar));
+}
+
+TEST(Perturbed, ThePriorsErrorIsWhatAStateWasMovedBy) {
+  MotionPrior prior;
+  prior.state.T_odom_lidar = se3_exp(twist(0.3, -0.2, test::kPi / 2, 5, 6, 7));
+  prior.state.twist = twist(0.1, 0.2, 0.3, 10, 0, 0);
+  Vector12d delta = Vector12d::Zero();
+  delta << 0, 0, 0, 1, 2, 3, 0.1, 0.2, 0.3, 4, 5, 6;
+  EXPECT_TRUE(prior_error(prior, perturbed(prior.state, delta)).isApprox(delta, 1e-9));
+  delta << 0.1, 0.2, 0.3, 1, 2, 3, 0, 0, 0, 0, 0, 0;
+  const Vector12d turned = prior_error(prior, perturbed(prior.state, delta));
+  EXPECT_TRUE(turned.head<6>().isApprox(delta.head<6>(), 1e-9));
 }
 
 TEST(CoarseJacobian, SumsAgreeWithNumericDifferences) {

@@ -1,10 +1,8 @@
 // Density filter, covariances, degeneracy and map score: cases that can be worked out by hand.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include "registration/covariances.hpp"
 #include "registration/degeneracy.hpp"
@@ -15,8 +13,6 @@
 
 namespace rilo {
 namespace {
-
-using test::twist;
 
 PointGrid grid_of(const std::vector<Eigen::Vector3f>& points, double cell_m = 1.0) {
   PointGrid grid(cell_m);
@@ -270,41 +266,6 @@ TEST(EvenlyPicked, SpreadsOverTheOrder) {
   EXPECT_EQ(picked, (std::vector<Eigen::Vector3f>{{0, 0, 0}, {2, 0, 0}, {5, 0, 0}, {7, 0, 0}}));
 }
 
-TEST(SearchPoses, FindsAKnownShiftAndTurn) {
-  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
-  SE3 centre = se3_exp(twist(0, 0, 0.3, 0, 0, 0));
-  centre.translation() = Eigen::Vector3d(0.4, -0.2, 0.0);
-  const SE3 truth = centre * se3_exp(twist(0, 0, 0.2, 0, 0, 0));
-  SE3 shifted = truth;
-  shifted.translation() = centre * Eigen::Vector3d(1.0, -0.5, 0.0);
-  const auto points = test::seen_from(shifted, test::rimless_room(0.6, 0.3, 1.2));
-  const PoseGrid grid{1.5, 0.5, 0.4, 0.1};
-  const auto best = search_poses(points, map, centre, grid, 0.2, 3);
-  ASSERT_EQ(best.size(), 3U);
-  EXPECT_LT(test::distance_m(best[0], shifted), 1e-9);
-  EXPECT_LT(test::angle_deg(best[0], shifted), 1e-6);
-  EXPECT_GE(map_score(points, map, best[0], 0.2), map_score(points, map, best[1], 0.2));
-  EXPECT_GE(map_score(points, map, best[1], 0.2), map_score(points, map, best[2], 0.2));
-  for (std::size_t i = 1; i < best.size(); ++i) {
-    EXPECT_TRUE(test::distance_m(best[0], best[i]) > 0.9 || test::angle_deg(best[0], best[i]) > 15.0);
-  }
-}
-
-TEST(SearchPoses, AfterTheDeadlineOnlyTheNearestWereScored) {
-  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
-  const auto points = test::seen_from(SE3::Identity(), test::rimless_room(0.6, 0.3, 1.2));
-  const PoseGrid grid{1.5, 0.5, 0.4, 0.1};
-  std::atomic<std::int64_t> now_ns = 0;
-  const Deadline::Clock clock = [&] { return ++now_ns; };
-  EXPECT_TRUE(search_poses(points, map, SE3::Identity(), grid, 0.2, 3, Deadline(clock, 0)).empty());
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  const auto best = search_poses(points, map, SE3::Identity(), grid, 0.2, 3, Deadline(clock, now_ns + 6));
-  ASSERT_FALSE(best.empty());
-  for (const SE3& T : best) {
-    EXPECT_LT(T.translation().norm(), 0.6);
-  }
-}
-
 TEST(Deadlines, NeverWithoutAClockAndAShareOfTheTimeLeft) {
   EXPECT_FALSE(Deadline().passed());
   EXPECT_FALSE(Deadline().passed_after(1e12));
@@ -319,15 +280,6 @@ TEST(Deadlines, NeverWithoutAClockAndAShareOfTheTimeLeft) {
   now_ns = 4'000'000;
   EXPECT_TRUE(early.passed());
   EXPECT_FALSE(end.passed());
-}
-
-TEST(SearchPoses, WithoutEvidenceTheSmallestMotionComesFirst) {
-  const LocalMap empty{LocalMapConfig{}};
-  const SE3 centre = se3_exp(twist(0, 0, 1, 2, 3, 4));
-  const auto best = search_poses({}, empty, centre, {1.0, 0.5, 0.2, 0.1}, 0.2, 1);
-  ASSERT_EQ(best.size(), 1U);
-  EXPECT_TRUE(best[0].isApprox(centre));
-  EXPECT_TRUE(search_poses({}, empty, centre, {}, 0.2, 0).empty());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "registration/adaptive_icp.hpp"
+#include "registration/plane_residuals.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 
 namespace rilo {
@@ -87,6 +88,77 @@ TEST(Tunnel, AWallAcrossShowsIt) {
   const IcpResult result = registered(12.0);
   ASSERT_TRUE(result.converged());
   EXPECT_GT(result.degeneracy.relative_eigenvalues[0], 2.0 * kDegenerateRatio);
+}
+
+/// The map of four sweeps from nearly the same place, and another sweep.
+struct ShortMap {
+  LocalMap map{LocalMapConfig{}};
+  TimedCloud source;
+
+  ShortMap() {
+    std::mt19937 rng(7);
+    map.set_scene_range(4.0);
+    for (int sweep = 0; sweep < 4; ++sweep) {
+      map.insert(sweep_at(0.1 * sweep, 12.0, rng), SE3(Eigen::Translation3d(0.1 * sweep, 0.0, 0.0)));
+    }
+    source.points = sweep_at(0.0, 12.0, rng);
+  }
+};
+
+TEST(Tunnel, OfWhatIsNotConfirmedFourThirdsAreTakenOff) {
+  const ShortMap scene;
+  AdaptiveIcpConfig config;
+  config.max_iterations = 1;
+  config.coarse_stride = 1;
+  const IcpResult icp = adaptive_icp(scene.source, scene.map, {}, {}, 0.05, config);
+  PlaneMatches matches;
+  const NormalEquations sums = matches.linearise(scene.source, scene.map, {}, 0.05, config, 1);
+  ASSERT_GT(matches.unconfirmed().norm(), 0.0);
+  const PoseDegeneracy expected = analyse_degeneracy(sums.pose_hessian(), 4.0 / 3.0 * matches.unconfirmed());
+  EXPECT_TRUE(icp.degeneracy.relative_eigenvalues.isApprox(expected.relative_eigenvalues, 1e-9));
+}
+
+TEST(Tunnel, APointThatLeavesItsVoxelHasAnotherWiderPlane) {
+  const ShortMap scene;
+  MotionState moved;
+  moved.T_odom_lidar.translation().x() = 1.01 * LocalMapConfig{}.voxel_m;
+  PlaneMatches kept;
+  kept.linearise(scene.source, scene.map, {}, 0.05, {}, 1);
+  const Matrix6d before = kept.unconfirmed();
+  kept.linearise(scene.source, scene.map, moved, 0.05, {}, 1);
+  PlaneMatches fresh;
+  fresh.linearise(scene.source, scene.map, moved, 0.05, {}, 1);
+  EXPECT_FALSE(before.isApprox(fresh.unconfirmed(), 1e-3));
+  EXPECT_TRUE(kept.unconfirmed().isApprox(fresh.unconfirmed(), 1e-9));
+}
+
+TEST(Tunnel, APlaneOfAnUnreliableNormalWeighsLess) {
+  const ShortMap scene;
+  constexpr double kScaleM = 0.05;
+  int checked = 0;
+  for (const Eigen::Vector3f& p : scene.source.points) {
+    MapPlane plane;
+    if (checked == 20 || !scene.map.find(p.cast<double>(), plane) || plane.weight < 0.2F || plane.weight > 0.8F) {
+      continue;
+    }
+    const double e = plane.normal.dot(p.cast<double>() - plane.point);
+    if (std::abs(e) > 0.1 || std::abs(e) < 0.001) {
+      continue;
+    }
+    ++checked;
+    const double weight = static_cast<double>(plane.weight) * kScaleM * kScaleM / (kScaleM * kScaleM + e * e);
+    const TimedCloud one{{p}, {}};
+    EXPECT_NEAR(linearise(one, scene.map, {}, kScaleM, {}).weight, weight, 1e-5);
+    const auto weight_within = [&](double gate_m) {
+      double found = 0.0;
+      for_each_residual({one, {}, kScaleM, gate_m}, scene.map,
+                        [&](std::size_t, const PlaneResidual& residual) { found = residual.weight; });
+      return found;
+    };
+    EXPECT_NEAR(weight_within(1.01 * std::abs(e)), weight, 1e-5);
+    EXPECT_EQ(weight_within(0.99 * std::abs(e)), 0.0) << "beyond the gate";
+  }
+  EXPECT_EQ(checked, 20);
 }
 
 }  // namespace

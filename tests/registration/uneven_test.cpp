@@ -1,4 +1,7 @@
 // Motion to and fro within a sweep, as the residuals show it.
+#include <cmath>
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "registration/registration_scenes.hpp"
@@ -65,6 +68,44 @@ TEST_F(UnevenMotion, NothingIsSaidOfWhatSaysNothing) {
   EXPECT_TRUE(zero({{{6.13F, 0, 0}}, {}}, map_)) << "without times";
   EXPECT_TRUE(zero({{{6.13F, 0, 0}}, {0.01F}}, map_)) << "one instant";
   EXPECT_TRUE(zero({{{6.13F, 0, 0}, {6.12F, 0.2F, 0}}, {0.0F, 0.1F}}, LocalMap({}))) << "an empty map";
+}
+
+TEST_F(UnevenMotion, NoiseOfThePointsIsNoMotion) {
+  TimedCloud source =
+      test::measured_in_motion(test::seen_from(SE3::Identity(), test::rimless_room(0.11, 0.37, 1.3)), Vector6d::Zero());
+  std::mt19937 rng(1);
+  std::normal_distribution<float> noise(0.0F, 0.02F);
+  for (Eigen::Vector3f& p : source.points) {
+    for (float& coordinate : p) {
+      coordinate += noise(rng);
+    }
+  }
+  EXPECT_EQ(uneven_motion(source, map_, {}, kUnevenSigmaM, {}, kUnevenNoiseShare, 1), Vector6d(Vector6d::Zero()));
+}
+
+TEST_F(UnevenMotion, WhatTheLeastNoiseExplainsIsNoMotion) {
+  TimedCloud source =
+      test::measured_in_motion(test::seen_from(SE3::Identity(), test::rimless_room(0.11, 0.37, 1.3)), Vector6d::Zero());
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    source.points[i].z() += 0.01F * std::sin(62.8319F * source.offsets_s[i]);
+  }
+  // With one residual in five hundred counted, 2 cm of noise move a stretch by more than this swing.
+  EXPECT_EQ(uneven_motion(source, map_, {}, kUnevenSigmaM, {}, 2e-3, 1)[5], 0.0);
+  EXPECT_GT(uneven_motion(source, map_, {}, kUnevenSigmaM, {}, kUnevenNoiseShare, 1)[5], 4e-5);
+}
+
+TEST_F(UnevenMotion, OfStretchesThatDoNotSeeADirectionNothingCounts) {
+  TimedCloud all =
+      test::measured_in_motion(test::seen_from(SE3::Identity(), test::rimless_room(0.11, 0.37, 1.3)), Vector6d::Zero());
+  TimedCloud source;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all.offsets_s[i] < 0.0F || std::abs(all.points[i].z()) < 2.8F) {  // later on neither floor nor ceiling
+      source.points.push_back(all.points[i]);
+      source.points.back().z() -= 0.01F * std::sin(62.8319F * all.offsets_s[i]);
+      source.offsets_s.push_back(all.offsets_s[i]);
+    }
+  }
+  EXPECT_NEAR(uneven_motion(source, map_, {}, kUnevenSigmaM, {}, kUnevenNoiseShare, 1)[5], 4.75e-5, 1e-5);
 }
 
 }  // namespace

@@ -1,0 +1,166 @@
+// The estimate of the sensor's elevation error over the sweeps: by hand, and when it is applied.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "calibration/elevation_offset.hpp"
+#include "geometry/degrees.hpp"
+
+namespace rilo {
+namespace {
+
+TEST(ElevationEstimator, TheEstimatorFindsWhatASteadyResponsePointsAt) {
+  ElevationOffsetConfig config;
+  ElevationOffsetEstimator estimator(config);
+  const double truth = 0.2 * kRadPerDeg;
+  for (int i = 0; i < 100; ++i) {
+    ElevationInformation sweep;
+    sweep.information = 1e9;
+    sweep.jacobian_m = 5.0;
+    sweep.gradient = 0.6 * sweep.information * (truth - estimator.applied_rad());  // weakened by noise
+    estimator.add(sweep);
+    EXPECT_LE(std::abs(estimator.advance()), config.step_deg * kRadPerDeg * 1.001);
+  }
+  EXPECT_NEAR(estimator.applied_rad(), truth, 0.01 * kRadPerDeg);
+}
+
+// Sweeps whose residuals point at `truth`.
+void see(ElevationOffsetEstimator& estimator, double truth_rad, int sweeps) {
+  for (int i = 0; i < sweeps; ++i) {
+    ElevationInformation sweep;
+    sweep.information = 1e9;
+    sweep.jacobian_m = 5.0;
+    sweep.gradient = 0.65 * sweep.information * (truth_rad - estimator.applied_rad());
+    estimator.add(sweep);
+    estimator.advance();
+  }
+}
+
+TEST(ElevationEstimator, WhatIsKnownBeforehandIsAppliedAtOnceAndFollowed) {
+  ElevationOffsetConfig config;
+  config.initial_deg = 0.27;  // an early find that was too much: it is 0.21
+  ElevationOffsetEstimator estimator(config);
+  EXPECT_DOUBLE_EQ(estimator.applied_rad(), 0.27 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(estimator.offset_rad(), 0.27 * kRadPerDeg);
+  see(estimator, 0.21 * kRadPerDeg, 60);
+  EXPECT_NEAR(estimator.applied_rad(), 0.21 * kRadPerDeg, 1e-3 * kRadPerDeg);
+  estimator.reset();
+  EXPECT_DOUBLE_EQ(estimator.applied_rad(), 0.27 * kRadPerDeg);
+  config.enabled = false;  // nothing is estimated; what is known counts all the same
+  EXPECT_DOUBLE_EQ(ElevationOffsetEstimator(config).applied_rad(), 0.27 * kRadPerDeg);
+  config.enabled = true;
+  config.significance = 1000;
+  ElevationOffsetEstimator fixed(config);
+  see(fixed, 0.21 * kRadPerDeg, 60);
+  EXPECT_DOUBLE_EQ(fixed.applied_rad(), 0.27 * kRadPerDeg);
+}
+
+TEST(ElevationEstimator, StartingOverBeginsWithAnEstimateThatWasCertain) {
+  ElevationOffsetEstimator estimator({});
+  see(estimator, 0.2 * kDegree, 60);
+  const double found = estimator.offset_rad();
+  estimator.start_over();
+  EXPECT_NEAR(estimator.applied_rad(), found, 1e-12);
+  EXPECT_EQ(estimator.offset_rad(), estimator.applied_rad());
+  EXPECT_TRUE(std::isinf(estimator.sigma_rad())) << "the same sweeps come again: they must not count twice";
+  see(estimator, 0.1 * kDegree, 60);
+  EXPECT_NEAR(estimator.applied_rad(), 0.1 * kDegree, 1e-3 * kDegree);
+
+  ElevationOffsetConfig config;
+  config.initial_deg = 0.1;
+  ElevationOffsetEstimator few(config);
+  see(few, 0.4 * kDegree, 3);  // of which nothing is certain
+  few.start_over();
+  EXPECT_DOUBLE_EQ(few.applied_rad(), 0.1 * kDegree);
+}
+
+TEST(ElevationEstimator, ACorrectionIsTakenBackWhenNothingIsLeftOfIt) {
+  ElevationOffsetEstimator estimator({});
+  see(estimator, 0.2 * kRadPerDeg, 30);
+  EXPECT_NEAR(estimator.applied_rad(), 0.2 * kRadPerDeg, 1e-3 * kRadPerDeg);
+  see(estimator, 0.0, 300);
+  EXPECT_LT(std::abs(estimator.offset_rad()), estimator.sigma_rad());
+  EXPECT_EQ(estimator.applied_rad(), 0.0);
+}
+
+TEST(ElevationEstimator, WhatIsKnownBeforehandIsCorrectedWhenItIsWrong) {
+  ElevationOffsetConfig config;
+  config.initial_deg = 0.3;
+  ElevationOffsetEstimator estimator(config);
+  see(estimator, 0.0, 60);
+  EXPECT_NEAR(estimator.applied_rad(), 0.0, 1e-3 * kRadPerDeg);
+}
+
+/// Sweeps that know the angle to `1 / sqrt(1e9)` rad and see `offset_rad` from the angle that is applied.
+void add(ElevationOffsetEstimator& estimator, double offset_rad, int sweeps) {
+  for (int i = 0; i < sweeps; ++i) {
+    ElevationInformation sweep;
+    sweep.information = 1e9;
+    sweep.jacobian_m = 5.0;
+    sweep.gradient = 0.65 * sweep.information * offset_rad;
+    estimator.add(sweep);
+  }
+}
+
+TEST(ElevationEstimator, ResidualsAnswerToTwoThirdsOfAnErrorAndTheLastSweepsCountMost) {
+  ElevationOffsetEstimator estimator({});
+  add(estimator, 0.001, 1);
+  EXPECT_NEAR(estimator.offset_rad(), 0.001, 1e-12);
+  add(estimator, 0.004, 1);  // the one before keeps a quarter
+  EXPECT_NEAR(estimator.offset_rad(), (0.25 * 0.001 + 0.004) / 1.25, 1e-12);
+  add(estimator, 0.0, 1);  // 1/9, 4/9
+  EXPECT_NEAR(estimator.offset_rad(), (0.001 + 4.0 * 0.004) / 14.0, 1e-12);
+}
+
+TEST(ElevationEstimator, WhereAllSweepsAgreeTheErrorOfSurfacesIsLeft) {
+  ElevationOffsetEstimator estimator({});
+  add(estimator, 0.001, 14);
+  EXPECT_TRUE(std::isinf(estimator.sigma_rad())) << "two blocks of five";
+  add(estimator, 0.001, 1);
+  const double information = 1e9 * 1240.0 / 225.0;  // Σ i² / 15²
+  EXPECT_NEAR(estimator.sigma_rad(), std::sqrt(1.0 / information + std::pow(0.002 / 5.0, 2)), 1e-9);
+}
+
+TEST(ElevationEstimator, WhereBlocksDisagreeTheirScatterCounts) {
+  constexpr double kOff = 0.01;
+  ElevationOffsetEstimator estimator({});
+  double total = 0.0;
+  double squares = 0.0;
+  double mean = 0.0;
+  for (int block = 0; block < 6; ++block) {
+    const double offset = block % 2 == 0 ? kOff : -kOff;
+    add(estimator, offset, 5);
+    double weight = 0.0;
+    for (int i = 5 * block + 1; i <= 5 * block + 5; ++i) {
+      weight += i * i;
+    }
+    total += weight;
+    squares += weight * weight;
+    mean += weight * offset;
+  }
+  mean /= total;
+  const double blocks = total * total / squares;  // as many of equal weight
+  const double expected = (kOff * kOff - mean * mean) / (blocks - 1.0) + std::pow(0.002 / 5.0, 2);
+  EXPECT_NEAR(estimator.sigma_rad(), std::sqrt(expected), 1e-6 * kOff);
+}
+
+TEST(ElevationEstimator, SmallErrorsAreNotCorrectedHoweverCertain) {
+  ElevationOffsetEstimator small({});
+  see(small, 0.07 * kRadPerDeg, 100);
+  EXPECT_GT(small.offset_rad(), 2.5 * small.sigma_rad());
+  EXPECT_EQ(small.applied_rad(), 0.0);
+  ElevationOffsetEstimator larger({});
+  see(larger, 0.09 * kRadPerDeg, 100);
+  EXPECT_NEAR(larger.applied_rad(), 0.09 * kRadPerDeg, 1e-3 * kRadPerDeg);
+}
+
+TEST(ElevationEstimator, ABlockThatIsNotFullDoesNotScatter) {
+  ElevationOffsetEstimator estimator({});
+  add(estimator, 0.01, 15);
+  add(estimator, 0.05, 2);
+  const double information = 1e9 * 1785.0 / 289.0;  // Σ i² / 17²
+  EXPECT_NEAR(estimator.sigma_rad(), std::sqrt(1.0 / information + std::pow(0.002 / 5.0, 2)), 1e-8);
+}
+
+}  // namespace
+}  // namespace rilo

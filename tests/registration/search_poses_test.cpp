@@ -1,0 +1,75 @@
+// The search over poses by map score.
+#include <atomic>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "registration/map_score.hpp"
+#include "registration/registration_scenes.hpp"
+
+namespace rilo {
+namespace {
+
+using test::twist;
+
+TEST(SearchPoses, FindsAKnownShiftAndTurn) {
+  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
+  SE3 centre = se3_exp(twist(0, 0, 0.3, 0, 0, 0));
+  centre.translation() = Eigen::Vector3d(0.4, -0.2, 0.0);
+  const SE3 truth = centre * se3_exp(twist(0, 0, 0.2, 0, 0, 0));
+  SE3 shifted = truth;
+  shifted.translation() = centre * Eigen::Vector3d(1.0, -0.5, 0.0);
+  const auto points = test::seen_from(shifted, test::rimless_room(0.6, 0.3, 1.2));
+  const PoseGrid grid{1.5, 0.5, 0.4, 0.1};
+  const auto best = search_poses(points, map, centre, grid, 0.2, 3);
+  ASSERT_EQ(best.size(), 3U);
+  EXPECT_LT(test::distance_m(best[0], shifted), 1e-9);
+  EXPECT_LT(test::angle_deg(best[0], shifted), 1e-6);
+  EXPECT_GE(map_score(points, map, best[0], 0.2), map_score(points, map, best[1], 0.2));
+  EXPECT_GE(map_score(points, map, best[1], 0.2), map_score(points, map, best[2], 0.2));
+  for (std::size_t i = 1; i < best.size(); ++i) {
+    EXPECT_TRUE(test::distance_m(best[0], best[i]) > 0.9 || test::angle_deg(best[0], best[i]) > 15.0);
+  }
+}
+
+TEST(SearchPoses, AfterTheDeadlineOnlyTheNearestWereScored) {
+  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
+  const auto points = test::seen_from(SE3::Identity(), test::rimless_room(0.6, 0.3, 1.2));
+  const PoseGrid grid{1.5, 0.5, 0.4, 0.1};
+  std::atomic<std::int64_t> now_ns = 0;
+  const Deadline::Clock clock = [&] { return ++now_ns; };
+  EXPECT_TRUE(search_poses(points, map, SE3::Identity(), grid, 0.2, 3, Deadline(clock, 0)).empty());
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const auto best = search_poses(points, map, SE3::Identity(), grid, 0.2, 3, Deadline(clock, now_ns + 6));
+  ASSERT_FALSE(best.empty());
+  for (const SE3& T : best) {
+    EXPECT_LT(T.translation().norm(), 0.6);
+  }
+}
+
+TEST(SearchPoses, WithoutEvidenceTheSmallestMotionComesFirst) {
+  const LocalMap empty{LocalMapConfig{}};
+  const SE3 centre = se3_exp(twist(0, 0, 1, 2, 3, 4));
+  const auto best = search_poses({}, empty, centre, {1.0, 0.5, 0.2, 0.1}, 0.2, 1);
+  ASSERT_EQ(best.size(), 1U);
+  EXPECT_TRUE(best[0].isApprox(centre));
+  EXPECT_TRUE(search_poses({}, empty, centre, {}, 0.2, 0).empty());
+}
+
+TEST(SearchPoses, LiesInACircleAndFartherApartThanTwoSteps) {
+  const LocalMap empty{LocalMapConfig{}};
+  const PoseGrid grid{2.0, 0.5, 0.3, 0.1};
+  const auto poses = search_poses({{1, 0, 0}}, empty, SE3::Identity(), grid, 0.2, 1000);
+  ASSERT_GT(poses.size(), 10U);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_LE(poses[i].translation().norm(), 2.0 + 1e-9);
+    for (std::size_t k = 0; k < i; ++k) {
+      const SE3 between = poses[k].inverse() * poses[i];
+      const Eigen::Vector3d shift = poses[i].translation() - poses[k].translation();
+      EXPECT_TRUE(shift.cwiseAbs().maxCoeff() > 1.01 || rotation_angle_rad(between) > 0.21) << i << ' ' << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rilo

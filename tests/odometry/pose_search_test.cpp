@@ -277,7 +277,7 @@ TEST_F(PoseSearches, ASecondSweepThatFitsElsewhereAsWellIsAmbiguous) {
   for (const Panels& panels : {kIrregular, kRegular}) {
     map_ = SweepMap(config_.map);
     map_.begin({road(0.0, 40.0, 0.0, 0.01, panels)}, {}, 8.0, {});
-    tracker_ = MotionTracker({}, {}, {});
+    tracker_.reset();
     tracker_.begin({});
     tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
     prepared_.source.points = road(2.5, 40.0, 0.07, 0.01, panels);

@@ -161,6 +161,7 @@ void show_the_rest(const RunFlags& flags, const RunRecord& run, LiveView& view) 
 
 /// A map without a folder belongs to the other results; without a map nothing needs its intensities.
 RunFlags completed(RunFlags flags) {
+  flags.one_pass = flags.one_pass || flags.real_time;  // nobody wants to wait for the same sweeps twice
   flags.map_intensity = flags.map_intensity && !flags.map.empty();
   const std::filesystem::path map = flags.map;
   if (!flags.out.empty() && !map.empty() && !map.has_parent_path()) flags.map = std::filesystem::path(flags.out) / map;
@@ -235,8 +236,8 @@ void add_flags(CLI::App& command, RunFlags& flags) {
                   "threads; 0: as many as the machine has; the results do not depend on it. Default: as configured")
       ->check(whole_number(1024));
   command.add_flag("--one-pass", flags.one_pass,
-                   "single pass as in live operation: no restart with the estimated elevation offset");
-  command.add_flag("--real-time", flags.real_time, "no faster than the sweeps were recorded");
+                   "single pass as in live operation: no restart with what the first 200 sweeps say about the sensor");
+  command.add_flag("--real-time", flags.real_time, "no faster than the sweeps were recorded, in one pass");
   command.add_flag("--quiet", flags.quiet, "no progress, no warnings, no summary");
   command.add_flag("--json", flags.json, "print metrics.json instead of the summary");
   command.add_flag("--no-report", flags.no_report, "do not write report.html");

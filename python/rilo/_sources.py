@@ -101,7 +101,7 @@ class _Progress:
 
     def restart(self, offset_deg):
         self.start = time.monotonic()
-        print(f"\nelevation offset {offset_deg:+.3f} deg found: restarting with it", file=sys.stderr, flush=True)
+        print(f"\nsensor learnt (elevation offset {offset_deg:+.3f} deg): restarting", file=sys.stderr, flush=True)
 
 
 def run(
@@ -123,12 +123,12 @@ def run(
     source:           path of the data, as for open(); further keywords are the options of open().
     config, settings: as for Odometry.
     start, count:     sweeps to skip, and to run at most (0: all).
-    one_pass:         single pass, as in live operation. Otherwise the run restarts, once, with the elevation offset of
-                      the sensor when that has become certain.
+    one_pass:         single pass, as in live operation. Otherwise the run restarts, once, with what the first 200
+                      sweeps say about the sensor: its elevation offset and the angles of its beams.
     map_voxel_m:      also collects the map of the whole run, one point per voxel of this edge, m.
     progress:         shows a line on stderr.
     on_sweep:         called after every sweep with (index, SweepResult, Sweep).
-    on_restart:       called before the second pass with (sweeps of the first, elevation offset in degrees).
+    on_restart:       called before the second pass with (sweeps of the first, elevation offset in degrees or 0).
 
     Ctrl-C ends the run after the sweep in work and raises KeyboardInterrupt; an exception of a callable ends it, too.
     Raises IoError, ConfigError and ValueError as open() and Odometry do.

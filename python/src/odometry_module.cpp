@@ -133,8 +133,13 @@ class PythonOdometry {
   void reset() {
     const Held held(mutex_);
     odometry_.reset();
-    last_stamp_ns_.reset();
-    decoder_.reset();
+    forget_times();
+  }
+
+  double start_over() {
+    const Held held(mutex_);
+    forget_times();
+    return odometry_.start_over();
   }
 
   /// What `function` makes of the odometry, without Python's lock.
@@ -146,6 +151,11 @@ class PythonOdometry {
   const OdometryConfig& config() const { return config_; }
 
  private:
+  void forget_times() {
+    last_stamp_ns_.reset();
+    decoder_.reset();
+  }
+
   // With the odometry held, as registered().
   std::int64_t next_stamp_ns() const { return last_stamp_ns_ ? *last_stamp_ns_ + kAssumedPeriodNs : 0; }
 
@@ -274,6 +284,9 @@ void add_odometry(py::module_& module) {
           "config", [](const PythonOdometry& self) { return dump_config(self.config()); },
           "The configuration in use, YAML with all keys.")
       .def("reset", &PythonOdometry::reset, "Clears map and trajectory; the next sweep starts at the identity.")
+      .def("start_over", &PythonOdometry::start_over,
+           "As reset(), but what was learnt about the sensor stays: the angles of its beams and, if it is certain, its "
+           "elevation offset (returned, rad). For a second pass over the same sweeps.")
       .def("__len__", sweeps_of)
       .def("__repr__", odometry_repr)
       .def("_repr_html_", odometry_html);

@@ -131,7 +131,7 @@ std::string run_html(const PythonRun& run) {
                 {"point times", r.source.point_times},
                 {"time", text_of("%.1f s on %d threads", r.wall_s, r.threads)}};
   if (r.restart) {
-    rows.emplace_back("passes", text_of("2: started over after %zu sweeps with what they say about the sensor",
+    rows.emplace_back("passes", text_of("2: restarted after %zu sweeps with what they say about the sensor",
                                         r.restart->after_sweeps));
   }
   for (const std::string& warning : run.warnings) rows.emplace_back("warning", warning);

@@ -22,20 +22,27 @@ def test_the_command_gives_the_same_bits(tmp_path, recording):
     ran = command("run", recording, "--out", out, "--one-pass", "--quiet")
     assert ran.returncode == 0, ran.stderr
     odometry = rilo.Odometry()
-    for sweep in rilo.open(recording):
-        odometry.register(sweep.points, sweep.times_s, sweep.stamp_ns, sweep.rings)
+
+    def run_through():
+        for sweep in rilo.open(recording):
+            odometry.register(sweep.points, sweep.times_s, sweep.stamp_ns, sweep.rings)
+
+    run_through()
     rilo.write_poses(tmp_path / "mine.txt", odometry.trajectory, format="kitti")
     assert (tmp_path / "mine.txt").read_bytes() == (out / "poses_lidar.txt").read_bytes()
     rilo.write_poses(tmp_path / "mine.tum", odometry.trajectory, odometry.stamps_ns)
     assert (tmp_path / "mine.tum").read_bytes() == (out / "trajectory.tum").read_bytes()
+    assert np.array_equal(rilo.run(recording, one_pass=True).trajectory, odometry.trajectory)
+    assert odometry.start_over() == 0
+    run_through()
     run = rilo.run(recording)
     assert np.array_equal(run.trajectory, odometry.trajectory) and np.array_equal(run.stamps_ns, odometry.stamps_ns)
-    assert np.array_equal(rilo.run(recording, one_pass=True).trajectory, odometry.trajectory)
 
 
 def test_a_run_is_observed(recording, capfd):
     seen = []
-    run = rilo.run(recording, count=4, start=2, map_voxel_m=1, progress=True, on_sweep=lambda *seen_now: seen.append(seen_now))
+    run = rilo.run(recording, count=4, start=2, map_voxel_m=1, one_pass=True, progress=True,
+                   on_sweep=lambda *seen_now: seen.append(seen_now))  # fmt: skip
     assert [index for index, *_ in seen] == run.indices == [2, 3, 4, 5] and len(run) == 4
     assert [result.stamp_ns for _, result, _ in seen] == run.stamps_ns.tolist()
     assert all(len(sweep) == result.points_in for _, result, sweep in seen)
@@ -47,7 +54,7 @@ def test_a_run_is_observed(recording, capfd):
     assert len(rilo.run(recording, count=2).map) == 0
 
 
-def test_a_run_restarts_with_the_elevation_offset(tmp_path):
+def test_a_run_restarts_with_what_it_learnt_of_the_sensor(tmp_path):
     drive = tmp_path / "drive"
     made = command("simulate", "--out", drive, "--sensor", "hdl64", "--sweeps", "30", "--start", "10",
                    "--elevation-bias", "0.3", "--quiet")  # fmt: skip
@@ -55,7 +62,7 @@ def test_a_run_restarts_with_the_elevation_offset(tmp_path):
     restarts = []
     run = rilo.run(drive, on_restart=lambda *seen: restarts.append(seen))
     assert len(run) == 30 and len(restarts) == 1
-    assert restarts[0][0] == run.started_over_after and restarts[0][1] > 0.1
+    assert restarts[0][0] == run.started_over_after == 30 and restarts[0][1] > 0.1
     single = rilo.run(drive, one_pass=True)
     assert single.started_over_after is None and not np.array_equal(single.trajectory, run.trajectory)
     assert "restarted after" in run._repr_html_()

@@ -65,9 +65,9 @@ void ProgressLine::on_warning(const std::string& warning) { progress_.say("rilo:
 
 void ProgressLine::on_restart(const Restart& restart) {
   progress_.say(fmt::format(
-      "rilo: {} sweeps show the sensor's elevation offset, {:+.3f} deg, and its beams, rms {:.3f} deg; starting over "
-      "with them (--one-pass: off)",
-      restart.after_sweeps, restart.elevation_offset_deg, restart.beam_elevation_rms_deg));
+      "rilo: {} learnt from: elevation offset of the sensor {:+.3f} deg, single beams rms {:.3f} deg; restarting with "
+      "them (--one-pass: off)",
+      counted(restart.after_sweeps, "sweep"), restart.elevation_offset_deg, restart.beam_elevation_rms_deg));
   done_ = 0;
 }
 

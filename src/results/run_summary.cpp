@@ -56,7 +56,7 @@ std::string angles(const RunMetrics& m) {
     text += fmt::format("elev. offset    estimated {:+.3f} ± {:.3f} deg, applied {:+.3f} deg", *m.elevation_offset_deg,
                         m.elevation_offset_sigma_deg.value_or(0), m.elevation_offset_applied_deg.value_or(0));
     if (m.started_over_after_sweeps) {
-      text += fmt::format(" at last, {:+.3f} deg from the first sweep on (started over after {} sweeps)",
+      text += fmt::format(" at last, {:+.3f} deg from the first sweep on (restarted after {} sweeps)",
                           m.elevation_initial_deg.value_or(0), *m.started_over_after_sweeps);
     }
     text += "\n";

@@ -36,8 +36,8 @@ TEST(StartOver, WithWhatTheFirstPassSays) {
   EXPECT_NE(metrics["elevation_initial_deg"], 0.0);
   EXPECT_EQ(metrics["frames"], kSweeps);
   EXPECT_EQ(lines_of(slurp(folder / "two" / "poses_lidar.txt")).size(), kSweeps);
-  EXPECT_NE(run.err.find("starting over"), std::string::npos) << run.err;
-  EXPECT_NE(run.out.find("started over after"), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find("restarting with them"), std::string::npos) << run.err;
+  EXPECT_NE(run.out.find("restarted after"), std::string::npos) << run.out;
 
   // The configuration that is left tells the whole story: with it the same poses come out.
   rilo_succeeds({"run", data, "--out", folder / "again", "--point-times", "none", "--no-report", "--config",

@@ -102,9 +102,8 @@ TEST(Metrics, TheSummaryNamesOneElevationOffset) {
   run.restart = Restart{.after_sweeps = 18, .elevation_offset_deg = 0.197};
   const std::string corrected = run_summary(run_metrics(run));
   EXPECT_THAT(corrected, HasSubstr("given +0.205 deg (--elevation-correction)"));
-  EXPECT_THAT(
-      corrected,
-      HasSubstr("applied +0.201 deg at last, +0.197 deg from the first sweep on (started over after 18 sweeps)"));
+  EXPECT_THAT(corrected,
+              HasSubstr("applied +0.201 deg at last, +0.197 deg from the first sweep on (restarted after 18 sweeps)"));
 }
 
 TEST(Metrics, TheSummaryAddsUpTheAnglesThatWereGiven) {

@@ -236,7 +236,7 @@ void add_flags(CLI::App& command, RunFlags& flags) {
                   "threads; 0: as many as the machine has; the results do not depend on it. Default: as configured")
       ->check(whole_number(1024));
   command.add_flag("--one-pass", flags.one_pass,
-                   "single pass as in live operation: no restart with what the first 150 sweeps say about the sensor");
+                   "single pass as in live operation: no restart with what the first 200 sweeps say about the sensor");
   command.add_flag("--real-time", flags.real_time, "no faster than the sweeps were recorded, in one pass");
   command.add_flag("--quiet", flags.quiet, "no progress, no warnings, no summary");
   command.add_flag("--json", flags.json, "print metrics.json instead of the summary");

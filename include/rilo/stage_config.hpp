@@ -76,7 +76,7 @@ struct ElevationOffsetConfig {
 /// Errors of the angles of single beams against their neighbours, estimated from the sweeps alone.
 struct BeamCalibrationConfig {
   bool enabled = true;  ///< estimate and correct them
-  double gain = 0.015;  ///< update gain per sweep; that of the first ones is larger
+  double gain = 0.015;  ///< update gain per sweep
 };
 
 }  // namespace rilo

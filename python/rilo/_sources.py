@@ -123,7 +123,7 @@ def run(
     source:           path of the data, as for open(); further keywords are the options of open().
     config, settings: as for Odometry.
     start, count:     sweeps to skip, and to run at most (0: all).
-    one_pass:         single pass, as in live operation. Otherwise the run restarts, once, with what the first 150
+    one_pass:         single pass, as in live operation. Otherwise the run restarts, once, with what the first 200
                       sweeps say about the sensor: its elevation offset and the angles of its beams.
     map_voxel_m:      also collects the map of the whole run, one point per voxel of this edge, m.
     progress:         shows a line on stderr.

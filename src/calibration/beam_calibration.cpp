@@ -12,8 +12,6 @@ namespace rilo {
 namespace {
 
 constexpr double kMemorySweeps = 100.0;  // the mean information follows the place, not the single sweep
-// The gain begins with one over that and falls as one over the sweeps, as that of a mean, to the configured one.
-constexpr double kFirstSweeps = 20.0;
 // Prior towards zero, in the unit of the information of one beam and sweep (sum of squared Jacobians, m²): a beam with
 // fewer or nearer points hardly moves.
 constexpr double kPriorInformation = 50.0;
@@ -76,14 +74,12 @@ void BeamCalibration::sum_up(const BeamSample& sample) {
 
 void BeamCalibration::find_steps() {
   sweeps_ = std::min(sweeps_ + 1.0, kMemorySweeps);
-  const double gain = std::max(config_.gain, 1.0 / (kFirstSweeps + learnt_from_));
-  learnt_from_ += 1.0;
   for (const Beam b : in_order_) {
     Information& beam = beams_[b];
     beam.mean += (beam.sweep - beam.mean) / sweeps_;
     const Eigen::Matrix2d information = beam.mean + kPriorInformation * Eigen::Matrix2d::Identity();
     const Eigen::Vector2d angles = angles_.of(b).cast<double>();
-    steps_[b] = gain * information.inverse() * (beam.gradient - kPriorInformation * angles);
+    steps_[b] = config_.gain * information.inverse() * (beam.gradient - kPriorInformation * angles);
   }
 }
 
@@ -116,7 +112,6 @@ void BeamCalibration::apply_differences() {
 void BeamCalibration::start_over() {
   BeamCalibration next(config_);
   next.angles_ = angles_;
-  next.learnt_from_ = learnt_from_;
   next.in_order_ = in_order_;  // of which the corrections are
   *this = std::move(next);
 }

@@ -64,7 +64,6 @@ class BeamCalibration {
   std::vector<Beam> in_order_;  // beams in use, by elevation
   std::vector<Observation> observations_;
   double sweeps_ = 0;
-  double learnt_from_ = 0;  // sweeps, those of the first pass included
 };
 
 }  // namespace rilo

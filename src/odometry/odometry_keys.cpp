@@ -194,8 +194,7 @@ void add_elevation(KeyVisitor& keys, ElevationOffsetConfig& c) {
 void add_beams(KeyVisitor& keys, BeamCalibrationConfig& c) {
   keys.section("beams", "Angular errors of single beams against their neighbours, estimated from the sweeps alone");
   keys.boolean({"enabled", "", "estimate and correct them"}, c.enabled);
-  keys.real({"gain", "", "update gain per sweep; that of the first ones is larger", "experiment: gain 0.03 to 0.015"},
-            c.gain, 0.0001, 1);
+  keys.real({"gain", "", "update gain per sweep", "experiment: gain 0.03 to 0.015"}, c.gain, 0.0001, 1);
 }
 
 void add_health(KeyVisitor& keys, HealthConfig& c) {

@@ -39,8 +39,8 @@ class RunError : public std::runtime_error {
   RunErrorKind kind_;
 };
 
-/// The first pass, in which the sensor is learnt, ends after that many sweeps: 15 s at 10 Hz.
-inline constexpr std::size_t kCalibrationSweeps = 150;
+/// The first pass, in which the sensor is learnt, ends after that many sweeps: 20 s at 10 Hz.
+inline constexpr std::size_t kCalibrationSweeps = 200;
 
 struct SessionOptions {
   OdometryConfig config;

@@ -13,7 +13,7 @@ namespace {
 // The registration counts one residual in a hundred as independent, so that the prior is not outweighed. Against the
 // truth of the simulator the poses are as good as if it were this many times more (docs/benchmarks.md), except where a
 // direction is hidden: there what the surfaces share in error leaks into the others.
-constexpr double kEvidenceWorth = 20.0;
+constexpr double kEvidenceWorth = 30.0;
 // A velocity that changes steadily by a within the sweep moves its points by a t² / 2 against the middle: a T² / 24 on
 // average over the sweep.
 constexpr double kMeanLag = 1.0 / 24.0;

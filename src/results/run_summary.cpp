@@ -55,15 +55,17 @@ std::string angles(const RunMetrics& m) {
   if (m.elevation_offset_deg) {
     text += fmt::format("elev. offset    estimated {:+.3f} ± {:.3f} deg, applied {:+.3f} deg", *m.elevation_offset_deg,
                         m.elevation_offset_sigma_deg.value_or(0), m.elevation_offset_applied_deg.value_or(0));
-    if (m.started_over_after_sweeps) {
-      text += fmt::format(" at last, {:+.3f} deg from the first sweep on (restarted after {} sweeps)",
-                          m.elevation_initial_deg.value_or(0), *m.started_over_after_sweeps);
-    }
+    const double from_first_deg = m.started_over_after_sweeps ? m.elevation_initial_deg.value_or(0) : 0.0;
+    if (from_first_deg != 0.0) text += fmt::format(" at last, {:+.3f} deg from the first sweep on", from_first_deg);
     text += "\n";
   }
   if (m.beam_elevation_rms_deg > 0.0 || m.beam_azimuth_rms_deg > 0.0) {
     text += fmt::format("per-beam calib. rms {:.3f} deg in elevation, {:.3f} in azimuth\n", m.beam_elevation_rms_deg,
                         m.beam_azimuth_rms_deg);
+  }
+  if (m.started_over_after_sweeps) {
+    text +=
+        fmt::format("passes          2: restarted after {} sweeps with these angles\n", *m.started_over_after_sweeps);
   }
   return text;
 }

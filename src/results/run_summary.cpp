@@ -36,10 +36,10 @@ std::string statuses(const RunMetrics& m) {
   return text;
 }
 
-// What comes from outside: the points come with the one, the run begins with the other on top.
+// What comes from outside: the points come with the one, the first pass begins with the other on top.
 std::string given_angles(const RunMetrics& m) {
   const double points_deg = m.elevation_correction_deg.value_or(0);
-  const double initial_deg = m.started_over_after_sweeps ? 0 : m.elevation_initial_deg.value_or(0);
+  const double initial_deg = m.elevation_given_deg.value_or(0);
   std::string text;
   if (points_deg != 0.0) text = fmt::format("{:+.3f} deg (--elevation-correction)", points_deg);
   if (initial_deg != 0.0) {

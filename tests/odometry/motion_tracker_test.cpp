@@ -61,7 +61,8 @@ TEST(MotionTracker, ASweepAcceleratesFromTheOneBefore) {
   EXPECT_EQ(tracker.predicted(0.3).earlier.lag_s, 0.0) << "lost";
 }
 
-TEST(MotionTracker, AQuarterOfTheChangeOfTheAccelerationGoesOn) {
+/// A step after a second sweep that has sped up.
+MotionTracker sped_up(bool degenerate) {
   MotionTracker tracker({}, {}, {});
   tracker.begin({});
   tracker.advance(after(kStepNs));
@@ -70,8 +71,13 @@ TEST(MotionTracker, AQuarterOfTheChangeOfTheAccelerationGoesOn) {
   IcpResult second = at(2.0);
   second.state.earlier = tracker.predicted(0.3).earlier;
   second.state.twist[3] += 1.0;  // 10 m/s²
-  tracker.accept(second, MotionVerdict::kPossible, false);
+  tracker.accept(second, MotionVerdict::kPossible, degenerate);
   tracker.advance(after(kStepNs));
+  return tracker;
+}
+
+TEST(MotionTracker, AQuarterOfTheChangeOfTheAccelerationGoesOn) {
+  MotionTracker tracker = sped_up(false);
   MotionState state = tracker.predicted(0.3);
   state.twist[3] += 2.0;  // 20 m/s²
   EXPECT_NEAR(state.motion().acceleration[3], 22.5, 1e-9);
@@ -225,16 +231,7 @@ TEST(MotionTracker, AfterALossTheVelocityIsNotKnown) {
 }
 
 TEST(MotionTracker, WhatADegenerateSweepDoesNotSeeKeepsItsVelocity) {
-  MotionTracker tracker({}, {}, {});
-  tracker.begin({});
-  tracker.advance(after(kStepNs));
-  tracker.accept(at(1.0), MotionVerdict::kPossible, false);
-  tracker.advance(after(kStepNs));
-  IcpResult second = at(2.0);
-  second.state.earlier = tracker.predicted(0.3).earlier;
-  second.state.twist[3] += 1.0;  // 10 m/s²
-  tracker.accept(second, MotionVerdict::kPossible, true);
-  tracker.advance(after(kStepNs));
+  MotionTracker tracker = sped_up(true);
   // A fifth of the configured 10 m/s², squared, over 0.1 s.
   EXPECT_NEAR(covariance_of(tracker.prior(std::nullopt))(9, 9), 1.0 + 0.1 * 0.4, 1e-9);
   MotionState state = tracker.predicted(0.3);

@@ -116,6 +116,8 @@ TEST(Metrics, TheSummaryAddsUpTheAnglesThatWereGiven) {
                                                        "(elevation.initial_deg), +0.300 deg together"));
   run.source.elevation_correction_deg = 0;
   EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg (elevation.initial_deg)\n"));
+  run.restart = Restart{.after_sweeps = 18, .elevation_offset_deg = 0.1};  // because of the beams
+  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg (elevation.initial_deg)\n"));
   run.config.elevation.enabled = false;  // nothing is estimated; what is given is applied all the same
   EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg (elevation.initial_deg)\n"));
 }

@@ -70,7 +70,7 @@ endforeach()
 # Headers: the core's folders, and those of the components that are built. All else lies in src/.
 install(FILES ${PROJECT_SOURCE_DIR}/include/rilo/rilo.hpp ${PROJECT_SOURCE_DIR}/include/rilo/stage_config.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rilo COMPONENT dev)
-foreach(folder geometry cloud odometry ${RILO_COMPONENTS})
+foreach(folder geometry cloud calibration odometry ${RILO_COMPONENTS})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/rilo/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rilo
     COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
 endforeach()

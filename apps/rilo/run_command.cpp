@@ -54,12 +54,13 @@ Examples:
   rilo run kitti/sequences/00 --out results/00 --elevation-correction 0.205
   rilo run drive.bag --topic /velodyne_points --out results/drive
   rilo run 2011_09_26_drive_0001_sync --point-times azimuth --out results/0001
+  rilo run other.bag --one-pass --calibration results/drive/calibration.yaml
   rilo run kitti/sequences/00 --view
   rilo run sweeps/ --bin-fields x,y,z,intensity,ring --set preprocess.max_range_m=60 --map map.pcd
 
 Leaves in --out: poses_lidar.txt, poses_camera.txt (with a calibration), trajectory.tum, .csv (EuRoC) and .mcap
-(Foxglove, ROS 2), config.yaml (loadable), sweeps.csv (one line of statistics per sweep), metrics.json, report.html. Where
-ground truth lies in DATA, errors are in metrics.json and the report. While running, poses_lidar.partial.txt grows by one line per sweep.
+(Foxglove, ROS 2), config.yaml (loadable), calibration.yaml (what was learnt about the sensor), sweeps.csv (one line of
+statistics per sweep), metrics.json, report.html. Where ground truth lies in DATA, errors are in metrics.json and the report. While running, poses_lidar.partial.txt grows by one line per sweep.
 Ctrl-C or SIGTERM ends the run after the current sweep and writes what there is (exit code 130, 143); a second one ends
 it at once.)";
 
@@ -217,6 +218,10 @@ void add_flags(CLI::App& command, RunFlags& flags) {
   command.add_option("--config", flags.config_file, "YAML configuration; rilo config --dump prints one")
       ->check(path_given());
   command.add_option("--set", flags.settings, "key=value, repeatable; overrides the file")->allow_extra_args(false);
+  command
+      .add_option("--calibration", flags.calibration,
+                  "calibration.yaml of another run with this sensor: its angles from the first sweep on")
+      ->check(path_given());
   command.add_option("--out", flags.out, "folder for the results (created)")->check(path_given());
   command
       .add_option("--map", flags.map,

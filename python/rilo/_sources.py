@@ -111,6 +111,7 @@ def run(
     *,
     start=0,
     count=0,
+    calibration=None,
     one_pass=False,
     map_voxel_m=None,
     progress=False,
@@ -123,6 +124,7 @@ def run(
     source:           path of the data, as for open(); further keywords are the options of open().
     config, settings: as for Odometry.
     start, count:     sweeps to skip, and to run at most (0: all).
+    calibration:      angles of this sensor, learnt in another run: a path, or the text of RunResult.calibration.
     one_pass:         single pass, as in live operation. Otherwise the run restarts, once, with what the first 200
                       sweeps say about the sensor: its elevation offset and the angles of its beams.
     map_voxel_m:      also collects the map of the whole run, one point per voxel of this edge, m.
@@ -154,6 +156,7 @@ def run(
             settings=settings,
             start=_whole_number("start", start),
             count=_whole_number("count", count),
+            calibration=calibration,
             one_pass=one_pass,
             map_voxel_m=map_voxel_m,
             on_sweep=on_sweep,

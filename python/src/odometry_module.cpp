@@ -6,11 +6,13 @@
 #include <pybind11/stl.h>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "arrays.hpp"
 #include "held.hpp"
 #include "modules.hpp"
 #include "notebook.hpp"
+#include "rilo/config/calibration_file.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/odometry/odometry.hpp"
@@ -81,8 +83,10 @@ void check_seconds(std::span<const float> times_s, std::span<const Eigen::Vector
 /// An odometry and what its calls leave unsaid. Any thread may call it.
 class PythonOdometry {
  public:
-  PythonOdometry(const py::object& config, const py::object& settings)
-      : config_(config_of(config, settings)), odometry_(config_, monotonic_ns) {}
+  PythonOdometry(const py::object& config, const py::object& settings, const py::object& calibration)
+      : config_(config_of(config, settings)), odometry_(config_, monotonic_ns) {
+    if (const auto known = calibration_of(calibration)) odometry_.start_with(*known);
+  }
 
   SweepResult register_sweep(const py::object& points, const py::object& times_s, const py::object& stamp_ns,
                              const py::object& rings) {
@@ -225,6 +229,8 @@ constexpr const char* kOdometryDoc = R"(LiDAR odometry: one call of register() o
 config:   the configuration as a dict, YAML text, or the path of a .yaml file; default: the built-in values.
 settings: single keys on top of it, as a dict ({"map": {"voxel_m": 0.3}} or {"map.voxel_m": 0.3}) or as a list of
           "key=value". rilo.dump_config() lists all keys with unit, range and meaning.
+calibration: angles of this sensor, learnt in another run: the path of its calibration.yaml or the text of
+          Odometry.calibration(). Of another sensor they are a ValueError at the first sweep.
 
 Raises ConfigError for an unknown key or a value out of range. Threads that call the same one wait for each other.)";
 
@@ -255,8 +261,8 @@ be told.)";
 
 void add_odometry(py::module_& module) {
   py::class_<PythonOdometry>(module, "Odometry", kOdometryDoc)
-      .def(py::init<const py::object&, const py::object&>(), py::arg("config") = py::none(),
-           py::arg("settings") = py::none())
+      .def(py::init<const py::object&, const py::object&, const py::object&>(), py::arg("config") = py::none(),
+           py::arg("settings") = py::none(), py::arg("calibration") = py::none())
       .def("register", &PythonOdometry::register_sweep, py::arg("points"), py::arg("times_s") = py::none(),
            py::arg("stamp_ns") = py::none(), py::arg("rings") = py::none(), kRegisterDoc)
       .def("register_frame", &PythonOdometry::register_frame, py::arg("points"), py::arg("timestamps") = py::none(),
@@ -283,6 +289,15 @@ void add_odometry(py::module_& module) {
       .def(
           "config", [](const PythonOdometry& self) { return dump_config(self.config()); },
           "The configuration in use, YAML with all keys.")
+      .def(
+          "calibration",
+          [](const PythonOdometry& self) {
+            const auto [angles, sweeps] = self.read([](const Odometry& odometry) {
+              return std::pair(odometry.sensor_angles(), odometry.trajectory().size());
+            });
+            return dump_calibration(angles, text_of("%zu sweeps", sweeps));
+          },
+          "What is known about the sensor's angles by now, YAML: to be written to a file, or for calibration=.")
       .def("reset", &PythonOdometry::reset, "Clears map and trajectory; the next sweep starts at the identity.")
       .def("start_over", &PythonOdometry::start_over,
            "As reset(), but what was learnt about the sensor stays: the angles of its beams and, if it is certain, its "

@@ -8,6 +8,7 @@
 #include "arrays.hpp"
 #include "modules.hpp"
 #include "notebook.hpp"
+#include "rilo/config/calibration_file.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/session/session.hpp"
 #include "rilo/session/session_observer.hpp"
@@ -75,11 +76,12 @@ bool signal_arrived() {
 }
 
 PythonRun run(const std::filesystem::path& source, const SourceOptions& source_options, const py::object& config,
-              const py::object& settings, std::size_t start, std::size_t count, bool one_pass,
-              std::optional<double> map_voxel_m, const py::object& on_sweep, const py::object& on_restart,
-              const py::object& on_progress) {
+              const py::object& settings, const py::object& calibration, std::size_t start, std::size_t count,
+              bool one_pass, std::optional<double> map_voxel_m, const py::object& on_sweep,
+              const py::object& on_restart, const py::object& on_progress) {
   SessionOptions options;
   options.config = config_of(config, settings);
+  options.calibration = calibration_of(calibration);
   options.start = start;
   options.count = count;
   options.one_pass = one_pass;
@@ -198,6 +200,13 @@ void add_run(py::module_& module) {
           "config", [](const PythonRun& run) { return dump_config(run.session.config); },
           "Configuration of the run, YAML with all keys.")
       .def_property_readonly(
+          "calibration",
+          [](const PythonRun& run) {
+            const std::string source = text_of("%zu sweeps of ", run.session.results.size());
+            return dump_calibration(run.session.learnt, source + run.session.source.path.string());
+          },
+          "What was learnt about the sensor's angles, YAML: to be written to a file, or for calibration=.")
+      .def_property_readonly(
           "wall_s", [](const PythonRun& run) { return run.session.wall_s; }, "Duration of the run, s.")
       .def_property_readonly(
           "warnings", [](const PythonRun& run) { return run.warnings; }, "Sentences about what was found in the data.")
@@ -206,8 +215,8 @@ void add_run(py::module_& module) {
       .def("_repr_html_", run_html);
 
   module.def("_run", run, py::arg("source"), py::arg("source_options"), py::kw_only(), py::arg("config"),
-             py::arg("settings"), py::arg("start"), py::arg("count"), py::arg("one_pass"), py::arg("map_voxel_m"),
-             py::arg("on_sweep"), py::arg("on_restart"), py::arg("on_progress"));
+             py::arg("settings"), py::arg("calibration"), py::arg("start"), py::arg("count"), py::arg("one_pass"),
+             py::arg("map_voxel_m"), py::arg("on_sweep"), py::arg("on_restart"), py::arg("on_progress"));
 }
 
 }  // namespace rilo::python

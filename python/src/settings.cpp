@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "rilo/config/calibration_file.hpp"
 #include "rilo/config/config_file.hpp"
 
 namespace rilo::python {
@@ -61,22 +62,38 @@ std::vector<std::string> texts_of(const py::object& settings) {
   return texts;
 }
 
+struct GivenYaml {
+  std::string text;
+  bool is_path = false;  // the text is one
+};
+
+GivenYaml yaml_of(const py::object& given, const char* name, const char* expected) {
+  if (py::hasattr(given, "__fspath__")) return {given.cast<std::filesystem::path>().string(), true};
+  if (!py::isinstance<py::str>(given)) refuse_type(name, given, expected);
+  const auto text = given.cast<std::string>();
+  // Keys have a colon behind them.
+  const bool is_path = text.ends_with(".yaml") || text.ends_with(".yml") || text.find(':') == std::string::npos;
+  return {text, is_path && !text.empty()};
+}
+
 OdometryConfig base_of(const py::object& config) {
   if (config.is_none()) return {};
   if (is_mapping(config)) return with_overrides({}, texts_of(config), "config");
-  if (py::hasattr(config, "__fspath__")) return load_config(config.cast<std::filesystem::path>());
-  if (!py::isinstance<py::str>(config)) refuse_type("config", config, "a dict, YAML text or the path of a YAML file");
-  const auto text = config.cast<std::string>();
-  if (text.empty()) return {};
-  // Keys have a colon behind them.
-  const bool is_path = text.ends_with(".yaml") || text.ends_with(".yml") || text.find(':') == std::string::npos;
-  return is_path ? load_config(text) : parse_config(text, "config");
+  const auto given = yaml_of(config, "config", "a dict, YAML text or the path of a YAML file");
+  if (given.is_path) return load_config(given.text);
+  return given.text.empty() ? OdometryConfig{} : parse_config(given.text, "config");
 }
 
 }  // namespace
 
 OdometryConfig config_of(const py::object& config, const py::object& settings) {
   return with_overrides(base_of(config), texts_of(settings), "settings");
+}
+
+std::optional<SensorAngles> calibration_of(const py::object& calibration) {
+  if (calibration.is_none()) return std::nullopt;
+  const auto given = yaml_of(calibration, "calibration", "YAML text or the path of a YAML file");
+  return given.is_path ? load_calibration(given.text) : parse_calibration(given.text, "calibration");
 }
 
 }  // namespace rilo::python

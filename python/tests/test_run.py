@@ -68,6 +68,28 @@ def test_a_run_restarts_with_what_it_learnt_of_the_sensor(tmp_path):
     assert "restarted after" in run._repr_html_()
 
 
+def test_what_a_run_learns_of_the_sensor_is_used_by_others(recording, tmp_path):
+    learnt = rilo.run(recording).calibration
+    assert learnt.startswith("# ") and "elevation_offset_deg: 0.000000" in learnt and "beams:" in learnt
+    (tmp_path / "calibration.yaml").write_text(learnt)
+    run = rilo.run(recording, calibration=learnt, one_pass=True)
+    same = rilo.run(recording, calibration=tmp_path / "calibration.yaml", one_pass=True)
+    odometry = rilo.Odometry(calibration=str(tmp_path / "calibration.yaml"))
+    for sweep in rilo.open(recording):
+        odometry.register(sweep.points, sweep.times_s, sweep.stamp_ns, sweep.rings)
+    assert np.array_equal(run.trajectory, same.trajectory) and np.array_equal(run.trajectory, odometry.trajectory)
+    assert "beams:" in odometry.calibration()
+
+    other = rilo.Odometry(calibration="elevation_offset_deg: 0\nbeams: [[3, 80, 0, 0]]")
+    sweep = next(iter(rilo.open(recording)))
+    with pytest.raises(ValueError, match="of another sensor"):
+        other.register(sweep.points, sweep.times_s, sweep.stamp_ns, sweep.rings)
+    with pytest.raises(rilo.ConfigError, match="no such file"):
+        rilo.Odometry(calibration="nowhere.yaml")
+    with pytest.raises(TypeError, match="calibration"):
+        rilo.run(recording, calibration=3)
+
+
 def test_a_run_has_the_options_of_open_and_refuses_others(recording, tmp_path):
     bins = tmp_path / "bins"
     bins.mkdir()

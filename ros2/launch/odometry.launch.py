@@ -33,6 +33,7 @@ def taken(given, name, kind):
 # Parameters of the node: what is left empty is as the parameter file says.
 PARAMETERS = {
     "config": (str, "YAML configuration, as for rilo run --config"),
+    "calibration": (str, "calibration.yaml of a rilo run with this sensor"),
     "odom_frame": (str, "where the base was at the first sweep"),
     "base_frame": (str, "the robot's frame; empty: the LiDAR's own"),
     "base_to_lidar": (numbers, "[x, y, z, yaw, pitch, roll] (m, rad) or [x, y, z, qx, qy, qz, qw]; empty: from TF"),

@@ -1,6 +1,7 @@
 #include "calibration/beam_calibration.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <Eigen/LU>
@@ -109,11 +110,24 @@ void BeamCalibration::apply_differences() {
   }
 }
 
-void BeamCalibration::start_over() {
-  BeamCalibration next(config_);
-  next.angles_ = angles_;
-  next.in_order_ = in_order_;  // of which the corrections are
-  *this = std::move(next);
+std::vector<BeamCorrection> BeamCalibration::corrections(double offset_rad) const {
+  std::vector<BeamCorrection> all;
+  all.reserve(in_order_.size());
+  for (const Beam b : in_order_) {
+    const Eigen::Vector2d add = angles_.of(b).cast<double>();
+    all.push_back({b, std::atan(beams_[b].tangent) - add.x() - offset_rad, add.x(), add.y()});
+  }
+  return all;
+}
+
+void BeamCalibration::begin_with(const std::vector<BeamCorrection>& known, double offset_rad) {
+  *this = BeamCalibration(config_);
+  for (const BeamCorrection& beam : known) {
+    if (beam.beam >= kBeams) continue;
+    angles_.at(beam.beam) = Eigen::Vector2d(beam.add_elevation_rad, beam.add_azimuth_rad).cast<float>();
+    beams_[beam.beam].tangent = std::tan(beam.elevation_rad + beam.add_elevation_rad + offset_rad);
+    in_order_.push_back(beam.beam);
+  }
 }
 
 Eigen::Vector2d BeamCalibration::rms_rad() const {

@@ -13,6 +13,7 @@
 #include "cloud/beam_angles.hpp"
 #include "cloud/beam_sample.hpp"
 #include "registration/adaptive_icp.hpp"
+#include "rilo/calibration/sensor_angles.hpp"
 #include "rilo/stage_config.hpp"
 
 namespace rilo {
@@ -34,8 +35,11 @@ class BeamCalibration {
   /// Root mean square of the corrections over all beams in use, elevation and azimuth (rad).
   Eigen::Vector2d rms_rad() const;
 
-  /// Forgets the sweeps and keeps the angles.
-  void start_over();
+  /// The corrections of the beams in use, whose points had `offset_rad` added to their elevation angles.
+  std::vector<BeamCorrection> corrections(double offset_rad) const;
+
+  /// Forgets the sweeps and begins with `known`, see corrections().
+  void begin_with(const std::vector<BeamCorrection>& known, double offset_rad);
 
  private:
   /// Of one beam: normal equations of elevation and azimuth, of the last sweep and averaged.

@@ -156,11 +156,13 @@ double ElevationOffsetEstimator::target_rad() const {
   return std::abs(estimate) > std::min(kTakeBack, config_.significance) * sigma_rad() ? estimate : 0.0;
 }
 
-void ElevationOffsetEstimator::start_over() {
+double ElevationOffsetEstimator::known_deg() const {
+  return config_.enabled && following_ ? kDegPerRad * target_rad() : config_.initial_deg;
+}
+
+void ElevationOffsetEstimator::begin_with(double initial_deg) {
   ElevationOffsetConfig config = config_;
-  if (config.enabled && following_) {
-    config.initial_deg = kDegPerRad * target_rad();
-  }
+  config.initial_deg = initial_deg;
   *this = ElevationOffsetEstimator(config);
 }
 

@@ -46,9 +46,11 @@ class ElevationOffsetEstimator {
   /// angle; takes the correction back when the error is no longer significant. Returns the change of the applied angle.
   double advance();
 
-  /// Forgets the sweeps; what is applied from now on, in place of the configured angle, is the estimate if that was
-  /// certain.
-  void start_over();
+  /// The angle to begin with in another run: the estimate if that is certain, else the one that this run began with.
+  double known_deg() const;
+
+  /// Forgets the sweeps; `initial_deg` is applied from now on, in place of the configured angle.
+  void begin_with(double initial_deg);
 
  private:
   void decide();

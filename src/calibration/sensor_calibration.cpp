@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "geometry/degrees.hpp"
 #include "registration/plane_residuals.hpp"
 
 namespace rilo {
@@ -28,9 +29,17 @@ void SensorCalibration::move(LocalMap& map) {
   }
 }
 
-void SensorCalibration::start_over() {
-  elevation_.start_over();
-  beams_.start_over();
+SensorAngles SensorCalibration::angles() const {
+  return {kRadPerDeg * elevation_.known_deg(), beams_.corrections(elevation_.applied_rad())};
+}
+
+void SensorCalibration::begin_with(const SensorAngles& known) {
+  begin_with(kDegPerRad * known.elevation_offset_rad, known.beams);
+}
+
+void SensorCalibration::begin_with(double elevation_deg, const std::vector<BeamCorrection>& beams) {
+  elevation_.begin_with(elevation_deg);
+  beams_.begin_with(beams, elevation_.applied_rad());
   pose_by_elevation_ = {};
   change_rad_ = 0.0;
 }

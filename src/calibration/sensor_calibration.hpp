@@ -1,11 +1,14 @@
 // What the odometry learns about its sensor: a constant elevation offset, and the angles of single beams.
 #pragma once
 
+#include <vector>
+
 #include "calibration/beam_calibration.hpp"
 #include "calibration/elevation_offset.hpp"
 #include "cloud/preprocess.hpp"
 #include "map/local_map.hpp"
 #include "registration/adaptive_icp.hpp"
+#include "rilo/calibration/sensor_angles.hpp"
 
 namespace rilo {
 
@@ -33,12 +36,21 @@ class SensorCalibration {
   const ElevationOffsetEstimator& elevation() const { return elevation_; }
   const BeamCalibration& beams() const { return beams_; }
 
+  /// Back to the configuration.
   void reset() { *this = SensorCalibration(elevation_config_, beams_config_); }
 
-  /// Keeps what was found, for another pass over the sweeps: learning begins anew from there.
-  void start_over();
+  /// What is known by now: of the elevation offset, what is certain.
+  SensorAngles angles() const;
+
+  /// Begins anew with `known` in place of the configured elevation offset.
+  void begin_with(const SensorAngles& known);
+
+  /// Begins anew with what was found, for another pass over the sweeps.
+  void start_over() { begin_with(elevation_.known_deg(), beams_.corrections(elevation_.applied_rad())); }
 
  private:
+  void begin_with(double elevation_deg, const std::vector<BeamCorrection>& beams);
+
   ElevationOffsetConfig elevation_config_;
   BeamCalibrationConfig beams_config_;
   ElevationOffsetEstimator elevation_;

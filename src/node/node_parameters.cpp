@@ -9,6 +9,7 @@
 
 #include "config/nearest_word.hpp"
 #include "node/base_frame.hpp"
+#include "rilo/config/calibration_file.hpp"
 #include "rilo/config/config_file.hpp"
 
 namespace rilo {
@@ -141,6 +142,8 @@ NodeParameters::NodeParameters(NodeOptions& options) {
     all_.emplace_back(name, meaning, binding, ParameterChange::kNever);
   };
   add_text("config", "YAML file as for rilo run --config; single keys count more", &options.config_file);
+  add_text("calibration", "calibration.yaml of a rilo run with this sensor: its angles from the first sweep on",
+           &options.calibration_file);
   add_text("odom_frame", "where the base was at the first sweep", &options.odom_frame);
   add_text("base_frame", "the robot's frame; empty: the LiDAR's own", &options.base_frame);
   add_text("base_to_lidar", "x, y, z, yaw, pitch, roll (m, rad) or x, y, z, qx, qy, qz, qw; empty: from TF",
@@ -169,9 +172,12 @@ const NodeParameter& NodeParameters::at(const std::string& name) const {
 
 NodeOptions node_options(const std::map<std::string, ParameterValue>& given) {
   NodeOptions options;
-  const auto file = given.find("config");
-  if (file != given.end()) NodeParameters(options).at("config").set(file->second);
+  for (const char* name : {"config", "calibration"}) {
+    const auto file = given.find(name);
+    if (file != given.end()) NodeParameters(options).at(name).set(file->second);
+  }
   if (!options.config_file.empty()) options.config = load_config(options.config_file);
+  if (!options.calibration_file.empty()) options.calibration = load_calibration(options.calibration_file);
   return with_parameters(options, given);
 }
 

@@ -20,11 +20,18 @@ SE3 extrinsic_of(const NodeOptions& options) {
 
 OdometrySession::OdometrySession(const NodeOptions& options, std::shared_ptr<LiveQueue> queue)
     : source_options_(options.source),
+      calibration_(options.calibration),
       queue_(std::move(queue)),
-      odometry_(options.config, steady_ns),
+      odometry_(new_odometry(options.config)),
       map_voxel_m_(options.map_voxel_m),
       map_(options.map_voxel_m),
       T_base_lidar_(extrinsic_of(options)) {}
+
+Odometry OdometrySession::new_odometry(const OdometryConfig& config) const {
+  Odometry odometry(config, steady_ns);
+  if (calibration_) odometry.start_with(*calibration_);
+  return odometry;
+}
 
 std::vector<Eigen::Vector3f> OdometrySession::in_odom_frame(std::vector<Eigen::Vector3f> points) const {
   transform_points(T_world_odom_ * T_base_lidar_, points);
@@ -81,7 +88,7 @@ double OdometrySession::last_step_s() const {
 
 void OdometrySession::reset(const std::optional<OdometryConfig>& config) {
   if (config) {
-    odometry_ = Odometry(*config, steady_ns);
+    odometry_ = new_odometry(*config);
   } else {
     odometry_.reset();
   }

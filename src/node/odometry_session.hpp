@@ -54,9 +54,12 @@ class OdometrySession {
   std::vector<Eigen::Vector3f> map() const;
 
  private:
+  // New, with what is known about the sensor.
+  Odometry new_odometry(const OdometryConfig& config) const;
   std::vector<Eigen::Vector3f> in_odom_frame(std::vector<Eigen::Vector3f> points) const;
 
   SourceOptions source_options_;
+  std::optional<SensorAngles> calibration_;
   std::shared_ptr<LiveQueue> queue_;
   std::unique_ptr<ScanSource> source_;
   std::vector<std::string> given_;  // warnings

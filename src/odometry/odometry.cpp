@@ -1,7 +1,11 @@
 #include "rilo/odometry/odometry.hpp"
 
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "calibration/same_sensor.hpp"
 #include "odometry/pipeline.hpp"
 
 namespace rilo {
@@ -9,6 +13,34 @@ namespace rilo {
 class Odometry::Impl : public Pipeline {
  public:
   using Pipeline::Pipeline;
+
+  SweepResult register_sweep(const SweepView& sweep) {
+    check_sensor(sweep);
+    return Pipeline::register_sweep(sweep);
+  }
+
+  void reset() { Pipeline::reset(known_); }
+
+  void start_with(const SensorAngles& known) {
+    known_ = known;
+    checked_ = false;
+    reset();
+  }
+
+ private:
+  // The known angles are of one unit: on the points of another sensor they would do harm that nothing shows.
+  void check_sensor(const SweepView& sweep) {
+    if (!known_ || checked_ || sweep.points.empty()) return;
+    const std::string difference = other_sensor(*known_, sweep);
+    if (!difference.empty()) {
+      throw std::invalid_argument("calibration: of another sensor, or of data read in another way: " + difference +
+                                  "; expected one learnt from this sensor");
+    }
+    checked_ = true;
+  }
+
+  std::optional<SensorAngles> known_;
+  bool checked_ = false;
 };
 
 Odometry::Odometry(const OdometryConfig& config, Clock clock)
@@ -30,6 +62,10 @@ void Odometry::keep_intensities(bool kept) { impl_->keep_intensities(kept); }
 const std::vector<float>& Odometry::last_map_intensities() const { return impl_->map().last_intensities(); }
 
 void Odometry::reset() { impl_->reset(); }
+
+void Odometry::start_with(const SensorAngles& known) { impl_->start_with(known); }
+
+SensorAngles Odometry::sensor_angles() const { return impl_->sensor_angles(); }
 
 double Odometry::start_over() { return impl_->start_over(); }
 

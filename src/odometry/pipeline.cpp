@@ -274,8 +274,11 @@ void Pipeline::finish(SweepResult& result) {
   }
 }
 
-void Pipeline::reset() {
+void Pipeline::reset(const std::optional<SensorAngles>& known) {
   calibration_.reset();
+  if (known) {
+    calibration_.begin_with(*known);
+  }
   start_over();
 }
 

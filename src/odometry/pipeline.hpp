@@ -32,7 +32,9 @@ class Pipeline {
 
   SweepResult register_sweep(const SweepView& sweep);
 
-  void reset();
+  /// `known`: in place of the configured angles.
+  void reset(const std::optional<SensorAngles>& known);
+  SensorAngles sensor_angles() const { return calibration_.angles(); }
   double start_over();
 
   const Trajectory& trajectory() const { return trajectory_; }

@@ -104,7 +104,7 @@ struct RunMetrics {
   MaybeNumber mean_iterations;
   std::optional<BudgetMetrics> budget;
 
-  MaybeNumber elevation_given_deg;                               ///< elevation.initial_deg
+  MaybeNumber elevation_given_deg;                               ///< by a calibration, or elevation.initial_deg
   MaybeNumber elevation_initial_deg;                             ///< that the first sweep was corrected by
   MaybeNumber elevation_offset_deg, elevation_offset_sigma_deg;  ///< estimated; both or none
   MaybeNumber elevation_offset_applied_deg;                      ///< on top of the given correction

@@ -19,10 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // What a run writes or removes in its folder.
-constexpr std::array kNames = {
-    "poses_lidar.txt",         "poses_camera.txt", "trajectory.tum", "trajectory.csv", "trajectory.mcap",
-    "trajectory.bag",          "config.yaml",      "sweeps.csv",     "metrics.json",   "report.html",
-    "poses_lidar.partial.txt", "map.ply",          "map.pcd"};
+constexpr std::array kNames = {"poses_lidar.txt", "poses_camera.txt", "trajectory.tum",   "trajectory.csv",
+                               "trajectory.mcap", "trajectory.bag",   "config.yaml",      "sweeps.csv",
+                               "metrics.json",    "report.html",      "calibration.yaml", "poses_lidar.partial.txt",
+                               "map.ply",         "map.pcd"};
 constexpr std::array kMaps = {"map.ply", "map.pcd"};
 
 constexpr std::size_t kHead = 4096;  // bytes of a file that tell what it is
@@ -79,7 +79,7 @@ void check_folder(const fs::path& folder, const fs::path& data, const std::vecto
 }  // namespace
 
 void check_outputs(const OutputRequest& outputs, const RunRequest& run, const fs::path& config_file) {
-  const std::vector<fs::path> inputs = {run.data, config_file, run.source.options.sensor_file};
+  const std::vector<fs::path> inputs = {run.data, config_file, run.calibration, run.source.options.sensor_file};
   const fs::path map = outputs.map;
   const fs::path map_folder = map.has_parent_path() ? map.parent_path() : ".";
   if (!outputs.map.empty()) {

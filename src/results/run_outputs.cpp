@@ -2,12 +2,15 @@
 
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "console/text.hpp"
 #include "io/atomic_file.hpp"
 #include "report/html_report.hpp"
 #include "results/metrics_json.hpp"
 #include "results/run_report.hpp"
 #include "results/sweep_table.hpp"
+#include "rilo/config/calibration_file.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/map_writer.hpp"
@@ -41,6 +44,17 @@ void write_poses(const fs::path& folder, const RunRecord& run) {
   }
 }
 
+// Only when there is something in it: what a run of no use has learnt is not kept.
+void write_calibration(const fs::path& folder, const RunRecord& run) {
+  const fs::path file = folder / "calibration.yaml";
+  if (run.learnt.beams.empty()) {
+    fs::remove(file);
+    return;
+  }
+  const std::string source = fmt::format("{} of {}", counted(run.results.size(), "sweep"), run.data.string());
+  write_atomically(file, dump_calibration(run.learnt, source));
+}
+
 // After all else: these are written by libraries that have failures of their own.
 void write_recordings(const fs::path& folder, const RunRecord& run, const RecordingNames& names) {
   write_mcap(folder / "trajectory.mcap", run.results, names);
@@ -71,6 +85,7 @@ void write_folder(const OutputRequest& flags, const RunRecord& run, const RunMet
   const fs::path folder = flags.out;
   write_poses(folder, run);
   write_atomically(folder / "config.yaml", dump_config(run.config));
+  write_calibration(folder, run);
   write_atomically(folder / "sweeps.csv", sweeps_csv(run.results, run.indices));
   write_atomically(folder / "metrics.json", json_text(to_json(metrics)));
   write_report(flags, run, metrics);

@@ -1,6 +1,7 @@
 #include "results/run_request.hpp"
 
 #include "console/interrupt.hpp"
+#include "rilo/config/calibration_file.hpp"
 #include "rilo/io/scan_source.hpp"
 
 namespace rilo {
@@ -19,6 +20,7 @@ OpenSource source_of(const RunRequest& request) {
 SessionOptions session_options(const RunRequest& request, const OdometryConfig& config) {
   SessionOptions options;
   options.config = config;
+  if (!request.calibration.empty()) options.calibration = load_calibration(request.calibration);
   options.start = request.start;
   options.count = request.count;
   options.one_pass = request.one_pass;

@@ -24,6 +24,7 @@ struct RunRequest {
   std::size_t start = 0;
   std::size_t count = 0;  ///< 0: all
   bool one_pass = false;
+  std::string calibration;     ///< file of a sensor's angles; empty: none
   bool map_intensity = false;  ///< intensities are needed
   bool quiet = false;          ///< neither progress nor warnings
   SourceRequest source;

@@ -36,14 +36,15 @@ std::string statuses(const RunMetrics& m) {
   return text;
 }
 
-// What comes from outside: the points come with the one, the first pass begins with the other on top.
+// What comes from outside: the points come with the one, the first pass begins with the other on top (of
+// elevation.initial_deg or a calibration).
 std::string given_angles(const RunMetrics& m) {
   const double points_deg = m.elevation_correction_deg.value_or(0);
   const double initial_deg = m.elevation_given_deg.value_or(0);
   std::string text;
   if (points_deg != 0.0) text = fmt::format("{:+.3f} deg (--elevation-correction)", points_deg);
   if (initial_deg != 0.0) {
-    text += fmt::format("{}{:+.3f} deg (elevation.initial_deg)", text.empty() ? "" : " and ", initial_deg);
+    text += fmt::format("{}{:+.3f} deg to begin with", text.empty() ? "" : " and ", initial_deg);
     if (points_deg != 0.0) text += fmt::format(", {:+.3f} deg together", points_deg + initial_deg);
   }
   return text.empty() ? "" : "elevation given " + text + "\n";

@@ -36,6 +36,8 @@ class Session::Impl {
     result_.peak_rss_mb = detail::peak_memory_mb();
     result_.source = source_->info();
     result_.config = options_.config;
+    result_.elevation_given_deg = elevation_given_deg();
+    result_.learnt = odometry_.sensor_angles();
     guarded([this] {
       for (SessionObserver* observer : observers_) observer->on_end(odometry_);
     });
@@ -56,6 +58,7 @@ class Session::Impl {
   Odometry new_odometry() const {
     Odometry odometry(options_.config, steady_ns);
     odometry.keep_intensities(options_.keep_intensities);
+    if (options_.calibration) odometry.start_with(*options_.calibration);
     return odometry;
   }
 
@@ -111,8 +114,13 @@ class Session::Impl {
   bool knows_sensor() const {
     if (result_.results.empty()) return false;
     const SweepStats& last = result_.results.back().stats;
-    return last.elevation_applied_rad != kRadPerDeg * options_.config.elevation.initial_deg ||
-           last.beam_elevation_rms_rad > 0.0 || last.beam_azimuth_rms_rad > 0.0;
+    return last.elevation_applied_rad != kRadPerDeg * elevation_given_deg() || last.beam_elevation_rms_rad > 0.0 ||
+           last.beam_azimuth_rms_rad > 0.0;
+  }
+
+  double elevation_given_deg() const {
+    return options_.calibration ? kDegPerRad * options_.calibration->elevation_offset_rad
+                                : options_.config.elevation.initial_deg;
   }
 
   void start_over() {

@@ -80,15 +80,35 @@ TEST(BeamCalibration, FindsTheErrorsOfAlternatingBeams) {
   EXPECT_GT(calibration.rms_rad().y(), 0.02 * kDegree);
 }
 
-TEST(BeamCalibration, StartingOverKeepsTheAngles) {
+TEST(BeamCalibration, CorrectionsAreHandedOn) {
   BeamCalibration calibration =
       learnt(0.4, [](Beam beam) { return Eigen::Vector2f(beam % 2 == 0 ? 0.06F : -0.06F, 0.0F); });
   const Eigen::Vector2f angles = calibration.angles().of(440);
   const Eigen::Vector2d rms = calibration.rms_rad();
   ASSERT_FALSE(angles.isZero());
-  calibration.start_over();
+  const double offset_rad = 0.3 * kDegree;  // which these points are taken to have
+  const std::vector<BeamCorrection> found = calibration.corrections(offset_rad);
+  calibration.begin_with(found, offset_rad);
   EXPECT_EQ(calibration.angles().of(440), angles);
   EXPECT_EQ(calibration.rms_rad(), rms);
+
+  const std::vector<BeamCorrection> again = calibration.corrections(offset_rad);
+  ASSERT_EQ(again.size(), found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double from_below_deg = 0.4 * (static_cast<double>(found[i].beam) - 500.0) - 0.3;  // of the beam's range
+    EXPECT_NEAR(found[i].elevation_rad / kDegree, from_below_deg + 0.2, 0.35) << found[i].beam;
+    EXPECT_EQ(again[i].beam, found[i].beam);
+    EXPECT_NEAR(again[i].elevation_rad, found[i].elevation_rad, 1e-12);
+    EXPECT_EQ(again[i].add_elevation_rad, found[i].add_elevation_rad);
+    EXPECT_EQ(again[i].add_azimuth_rad, found[i].add_azimuth_rad);
+  }
+}
+
+TEST(BeamCalibration, BeamsThatDoNotExistAreIgnored) {
+  BeamCalibration calibration(BeamCalibrationConfig{});
+  calibration.begin_with({{static_cast<std::uint16_t>(kBeams), 0.1, 0.01, 0.01}, {kNoBeam, 0.1, 0.01, 0.01}}, 0.0);
+  EXPECT_TRUE(calibration.corrections(0.0).empty());
+  EXPECT_TRUE(calibration.angles().of(kNoBeam).isZero());
 }
 
 TEST(BeamCalibration, WhatAllBeamsShareIsLeftAlone) {

@@ -53,11 +53,12 @@ TEST(ElevationEstimator, WhatIsKnownBeforehandIsAppliedAtOnceAndFollowed) {
   EXPECT_DOUBLE_EQ(fixed.applied_rad(), 0.27 * kRadPerDeg);
 }
 
-TEST(ElevationEstimator, StartingOverBeginsWithAnEstimateThatWasCertain) {
+TEST(ElevationEstimator, AnotherRunBeginsWithAnEstimateThatWasCertain) {
   ElevationOffsetEstimator estimator({});
   see(estimator, 0.2 * kRadPerDeg, 60);
   const double found = estimator.offset_rad();
-  estimator.start_over();
+  EXPECT_NEAR(estimator.known_deg(), found / kRadPerDeg, 1e-9);
+  estimator.begin_with(estimator.known_deg());
   EXPECT_NEAR(estimator.applied_rad(), found, 1e-12);
   EXPECT_EQ(estimator.offset_rad(), estimator.applied_rad());
   EXPECT_TRUE(std::isinf(estimator.sigma_rad())) << "the same sweeps come again: they must not count twice";
@@ -68,7 +69,7 @@ TEST(ElevationEstimator, StartingOverBeginsWithAnEstimateThatWasCertain) {
   config.initial_deg = 0.1;
   ElevationOffsetEstimator few(config);
   see(few, 0.4 * kRadPerDeg, 3);  // of which nothing is certain
-  few.start_over();
+  few.begin_with(few.known_deg());
   EXPECT_DOUBLE_EQ(few.applied_rad(), 0.1 * kRadPerDeg);
 }
 

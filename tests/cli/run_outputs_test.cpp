@@ -128,8 +128,9 @@ TEST(RunOutputs, AllFilesArePresentAndParse) {
   expect_csv(slurp(out / "sweeps.csv"));
   expect_self_contained(slurp(out / "report.html"));
   EXPECT_TRUE(std::filesystem::exists(out / "config.yaml"));
+  EXPECT_TRUE(std::filesystem::exists(out / "calibration.yaml"));
   const std::size_t bags = std::filesystem::exists(out / "trajectory.bag") ? 1 : 0;  // where ROS' library is
-  EXPECT_EQ(files_in(out), 9U + bags) << "nothing temporary is left";
+  EXPECT_EQ(files_in(out), 10U + bags) << "nothing temporary is left";
 }
 
 TEST(RunOutputs, ConfigurationThatWasUsedGivesTheSamePoses) {

@@ -48,6 +48,45 @@ TEST_F(RunningNode, PosesAreThoseOfTheLibrary) {
   EXPECT_TRUE(output.failures.empty());
 }
 
+TEST(LiveOdometry, BeginsWithTheAnglesOfItsSensorAndAgainAfterAReset) {
+  Odometry learning(OdometryConfig{});
+  for (const Sweep& sweep : drive()) learning.register_sweep(sweep);
+  NodeOptions options = at_once();
+  options.calibration = learning.sensor_angles();
+  options.calibration->elevation_offset_rad = 0.005;
+  Odometry library(OdometryConfig{});
+  library.start_with(*options.calibration);
+  Output output;
+  LiveOdometry odometry(options, "/points", output);
+  odometry.start();
+  for (std::size_t i = 0; i < kSweeps; ++i) {
+    if (i == 3) {  // another configuration makes a new odometry: that one knows the sensor, too
+      odometry.set_parameters({{"icp.max_iterations", std::int64_t{23}}});
+      odometry.reset();
+      OdometryConfig changed;
+      changed.icp.max_iterations = 23;
+      library = Odometry(changed);
+      library.start_with(*options.calibration);
+    }
+    odometry.push(message(i));
+    ASSERT_TRUE(output.wait_poses(i + 1));
+    expect_pose(output.odometry.back().pose, library.register_sweep(drive()[i]).T_odom_lidar);
+  }
+}
+
+TEST(LiveOdometry, TheAnglesOfAnotherSensorEndIt) {
+  NodeOptions options = at_once();
+  options.calibration.emplace();
+  options.calibration->beams.push_back({3, 0.5, 0.0, 0.0});
+  Output output;
+  LiveOdometry odometry(options, "/points", output);
+  odometry.start();
+  odometry.push(message(0));
+  ASSERT_TRUE(output.wait([&] { return !output.failures.empty(); }));
+  EXPECT_THAT(output.failures.front(), HasSubstr("calibration: of another sensor"));
+  EXPECT_TRUE(output.odometry.empty());
+}
+
 TEST(LiveOdometry, PathAndMapComeWithTheirPeriodsAndWhenWanted) {
   Output output;
   NodeOptions options = at_once();

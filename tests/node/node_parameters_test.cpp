@@ -80,6 +80,17 @@ TEST(NodeParameters, SingleKeysCountMoreThanTheFile) {
   EXPECT_THROW(node_options({{"config", "nowhere.yaml"}}), IoError);
 }
 
+TEST(NodeParameters, TheCalibrationIsLoaded) {
+  const TempDir folder;
+  const std::string file = folder.write("c.yaml", "elevation_offset_deg: 0.2\nbeams: [[3, -5, 0.01, 0]]\n").string();
+  const NodeOptions options = node_options({{"calibration", file}, {"icp.max_iterations", std::int64_t{7}}});
+  ASSERT_TRUE(options.calibration);
+  EXPECT_NEAR(options.calibration->elevation_offset_rad, 0.00349, 1e-5);
+  EXPECT_EQ(options.calibration->beams.at(0).beam, 3);
+  EXPECT_FALSE(node_options({{"calibration", ""}}).calibration);
+  EXPECT_THROW(node_options({{"calibration", "nowhere.yaml"}}), IoError);
+}
+
 TEST(NodeParameters, WhatIsWrongIsNamed) {
   EXPECT_THAT(refusal([] {
                 node_options({{"queue", std::int64_t{-1}}});

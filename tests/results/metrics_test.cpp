@@ -111,15 +111,15 @@ TEST(Metrics, TheSummaryNamesOneElevationOffset) {
 TEST(Metrics, TheSummaryAddsUpTheAnglesThatWereGiven) {
   RunRecord run = short_run();
   run.source.elevation_correction_deg = 0.2;
-  run.config.elevation.initial_deg = 0.1;
+  run.elevation_given_deg = 0.1;
   EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("given +0.200 deg (--elevation-correction) and +0.100 deg "
-                                                       "(elevation.initial_deg), +0.300 deg together"));
+                                                       "to begin with, +0.300 deg together"));
   run.source.elevation_correction_deg = 0;
-  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg (elevation.initial_deg)\n"));
+  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg to begin with\n"));
   run.restart = Restart{.after_sweeps = 18, .elevation_offset_deg = 0.1};  // because of the beams
-  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg (elevation.initial_deg)\n"));
+  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg to begin with\n"));
   run.config.elevation.enabled = false;  // nothing is estimated; what is given is applied all the same
-  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg (elevation.initial_deg)\n"));
+  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg to begin with\n"));
 }
 
 TEST(Metrics, AFigureWithoutAnErrorBehindItIsNone) {

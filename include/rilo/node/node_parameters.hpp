@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "rilo/calibration/sensor_angles.hpp"
 #include "rilo/config/config_key.hpp"
 #include "rilo/geometry/se3.hpp"
 #include "rilo/io/source_options.hpp"
@@ -20,6 +22,8 @@ namespace rilo {
 struct NodeOptions {
   std::string config_file;  ///< already in `config`
   OdometryConfig config;
+  std::string calibration_file;  ///< already in `calibration`
+  std::optional<SensorAngles> calibration;
   SourceOptions source;
   int queue = 2;        ///< LiveQueueOptions::limit
   int look_ahead = 12;  ///< LiveQueueOptions::look_ahead

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "rilo/calibration/sensor_angles.hpp"
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/geometry/trajectory.hpp"
 #include "rilo/odometry/odometry_config.hpp"
@@ -33,6 +34,8 @@ class Odometry {
   /// Registers one sweep (a Sweep or a view of one, which is not used after the call). Stamps must increase; a sweep
   /// whose stamp does not is registered as if one usual period had passed. Never throws on bad data: the status in the
   /// result reports it.
+  /// @throws std::invalid_argument when start_with() was given the angles of another sensor; the sweep is not
+  /// registered.
   SweepResult register_sweep(const SweepView& sweep);
 
   /// Poses so far, one per registered sweep.
@@ -50,8 +53,16 @@ class Odometry {
   /// Mean intensities of last_map_points(); empty when they are not kept or the sweep had none.
   const std::vector<float>& last_map_intensities() const;
 
-  /// Forgets map, trajectory and motion; the next sweep starts at the identity again.
+  /// Forgets map, trajectory and motion; the next sweep starts at the identity again, with what start_with() was given.
   void reset();
+
+  /// As reset(), with what is known about the sensor: its elevation offset, instead of the configured one, and the
+  /// angles of its beams correct the points from the next sweep on. Both are learnt further.
+  void start_with(const SensorAngles& known);
+
+  /// What is known about the sensor by now, to start with in another recording: its elevation offset, as far as that is
+  /// certain, and the angles of the beams seen.
+  SensorAngles sensor_angles() const;
 
   /// As reset(), but what was learnt about the sensor stays: its elevation offset, if that is certain, and the angles
   /// of its beams correct the points from the next sweep on. Returns the elevation offset (rad).

@@ -44,8 +44,9 @@ inline constexpr std::size_t kCalibrationSweeps = 200;
 
 struct SessionOptions {
   OdometryConfig config;
-  std::size_t start = 0;  ///< sweeps skipped at the beginning of the data
-  std::size_t count = 0;  ///< sweeps to run at most; 0: all
+  std::optional<SensorAngles> calibration;  ///< Odometry::start_with
+  std::size_t start = 0;                    ///< sweeps skipped at the beginning of the data
+  std::size_t count = 0;                    ///< sweeps to run at most; 0: all
   /// Single pass, as in live operation. Otherwise the run starts over, once, with what the first kCalibrationSweeps (or
   /// all, if there are fewer) say about the sensor, its elevation offset and the angles of its beams, so that the first
   /// sweeps have the corrections, too.
@@ -66,6 +67,8 @@ struct SessionResult {
   int threads = 0;                               ///< used by the odometry
   CompensationTrial trial;                       ///< of points without times
   std::optional<Restart> restart;                ///< when there was a second pass
+  double elevation_given_deg = 0;                ///< offset of the calibration; without one elevation.initial_deg
+  SensorAngles learnt;                           ///< Odometry::sensor_angles at the end
   PoseInstant pose_instant = PoseInstant::kMid;  ///< of the sweep, that the poses refer to
   double wall_s = 0;                             ///< duration of the run, both passes; not of the trial
   double peak_rss_mb = 0;                        ///< largest memory of this process so far

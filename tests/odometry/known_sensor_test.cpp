@@ -1,0 +1,136 @@
+// What is known about the sensor goes from one run into the next.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "cloud/beam_angles.hpp"
+#include "geometry/degrees.hpp"
+#include "rilo/odometry/odometry.hpp"
+#include "rilo/simulation/drive_simulator.hpp"
+
+namespace rilo {
+namespace {
+
+/// A sensor whose beams are off by 0.1 degrees.
+BeamAngles poor_unit() {
+  std::mt19937 rng(11);
+  std::normal_distribution<float> error(0.0F, static_cast<float>(0.1 * kRadPerDeg));
+  BeamAngles wrong;
+  for (Beam beam = 0; beam < 64; ++beam) wrong.at(beam) = {error(rng), error(rng)};
+  return wrong;
+}
+
+std::vector<Sweep> drive(double start_s, std::size_t sweeps, SensorKind sensor = SensorKind::kOs1) {
+  DriveConfig config;
+  config.start_s = start_s;
+  config.sweeps = sweeps;
+  config.sensor = sensor;
+  const DriveSimulator simulator(config);
+  const BeamAngles wrong = poor_unit();
+  std::vector<Sweep> all;
+  for (std::size_t i = 0; i < simulator.size(); ++i) {
+    Sweep sweep = simulator.sweep(i).sweep;
+    for (std::size_t k = 0; k < sweep.rings.size(); ++k) {
+      sweep.points[k] = wrong.corrected(sweep.points[k], sweep.rings[k]);
+    }
+    all.push_back(std::move(sweep));
+  }
+  return all;
+}
+
+OdometryConfig quick() {
+  OdometryConfig config;
+  config.beams.gain = 0.2;
+  return config;
+}
+
+SE3 last_pose(Odometry& odometry, const std::vector<Sweep>& sweeps) {
+  SE3 pose;
+  for (const Sweep& sweep : sweeps) pose = odometry.register_sweep(sweep).T_odom_lidar;
+  return pose;
+}
+
+TEST(KnownSensor, AnotherRunBeginsWithWhatWasLearnt) {
+  Odometry first(quick());
+  last_pose(first, drive(6.0, 15));
+  const SensorAngles learnt = first.sensor_angles();
+  ASSERT_EQ(learnt.beams.size(), 64U);
+  double largest = 0;
+  for (const BeamCorrection& beam : learnt.beams) largest = std::max(largest, std::abs(beam.add_elevation_rad));
+  EXPECT_GT(largest, 0.02 * kRadPerDeg);
+
+  const std::vector<Sweep> sweeps = drive(20.0, 3);
+  Odometry unknown(quick());
+  Odometry known(quick());
+  known.start_with(learnt);
+  const double without_m = unknown.register_sweep(sweeps[0]).stats.residual_rms_m +
+                           unknown.register_sweep(sweeps[1]).stats.residual_rms_m +
+                           unknown.register_sweep(sweeps[2]).stats.residual_rms_m;
+  const double with_m = known.register_sweep(sweeps[0]).stats.residual_rms_m +
+                        known.register_sweep(sweeps[1]).stats.residual_rms_m +
+                        known.register_sweep(sweeps[2]).stats.residual_rms_m;
+  EXPECT_LT(with_m, 0.95 * without_m);
+}
+
+TEST(KnownSensor, StartingOverIsStartingWithWhatWasLearnt) {
+  const std::vector<Sweep> sweeps = drive(6.0, 6);
+  Odometry first(quick());
+  last_pose(first, sweeps);
+  Odometry second(quick());
+  second.start_with(first.sensor_angles());
+  first.start_over();
+  EXPECT_EQ(last_pose(first, sweeps).matrix(), last_pose(second, sweeps).matrix());
+}
+
+TEST(KnownSensor, AResetGoesBackToWhatWasGiven) {
+  const std::vector<Sweep> sweeps = drive(6.0, 6);
+  Odometry learning(quick());
+  last_pose(learning, sweeps);
+  SensorAngles known = learning.sensor_angles();
+  known.elevation_offset_rad = 0.2 * kRadPerDeg;
+  Odometry odometry(quick());
+  odometry.start_with(known);
+  EXPECT_NEAR(odometry.sensor_angles().elevation_offset_rad, 0.2 * kRadPerDeg, 1e-12);
+  const SE3 once = last_pose(odometry, sweeps);
+  odometry.reset();
+  EXPECT_EQ(odometry.trajectory().size(), 0U);
+  EXPECT_EQ(last_pose(odometry, sweeps).matrix(), once.matrix());
+  Odometry without(quick());
+  EXPECT_NE(last_pose(without, sweeps).matrix(), once.matrix());
+}
+
+TEST(KnownSensor, AnotherSensorIsAnErrorAndNothingIsRegistered) {
+  Odometry os1(quick());
+  last_pose(os1, drive(6.0, 5));
+  Odometry odometry(quick());
+  odometry.start_with(os1.sensor_angles());
+  const std::vector<Sweep> others = drive(6.0, 1, SensorKind::kVlp16);
+  for (int time = 0; time < 2; ++time) {  // not only the first sweep
+    try {
+      odometry.register_sweep(others[0]);
+      ADD_FAILURE() << "not refused";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("calibration: of another sensor"));
+    }
+  }
+  EXPECT_TRUE(odometry.trajectory().empty());
+  EXPECT_EQ(odometry.register_sweep(drive(6.0, 1)[0]).status, OdometryStatus::kInitialising);
+  EXPECT_NO_THROW(odometry.register_sweep(others[0])) << "one look is enough";
+}
+
+TEST(KnownSensor, SweepsWithoutPointsSayNothing) {
+  Odometry os1(quick());
+  last_pose(os1, drive(6.0, 5));
+  Odometry odometry(quick());
+  odometry.start_with(os1.sensor_angles());
+  EXPECT_EQ(odometry.register_sweep(Sweep{}).status, OdometryStatus::kEmpty);
+  EXPECT_THROW(odometry.register_sweep(drive(6.0, 1, SensorKind::kVlp16)[0]), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace rilo

@@ -124,11 +124,12 @@ void ElevationOffsetEstimator::add(const ElevationInformation& sweep) {
   }
 }
 
-double ElevationOffsetEstimator::offset_rad() const {
-  return information_ > 0.0 ? weighted_offset_ / information_ : applied_rad_;
+AngleEstimate ElevationOffsetEstimator::of_sweeps() const {
+  return {information_ > 0.0 ? weighted_offset_ / information_ : applied_rad_, sigma_of_sweeps_rad()};
 }
 
-double ElevationOffsetEstimator::sigma_rad() const {
+// Scatter of blocks of sweeps.
+double ElevationOffsetEstimator::sigma_of_sweeps_rad() const {
   if (blocks_ < kLeastBlocks) {
     return std::numeric_limits<double>::infinity();
   }
@@ -142,31 +143,52 @@ double ElevationOffsetEstimator::sigma_rad() const {
   return std::sqrt(std::max(from_scatter, 1.0 / information_) + systematic);
 }
 
+AngleEstimate ElevationOffsetEstimator::estimate() const {
+  const AngleEstimate own = of_sweeps();
+  if (!std::isfinite(others_.sigma_rad)) {
+    return own;
+  }
+  if (!std::isfinite(own.sigma_rad)) {
+    return others_;
+  }
+  const double own_weight = 1.0 / (own.sigma_rad * own.sigma_rad);
+  const double weight = 1.0 / (others_.sigma_rad * others_.sigma_rad);
+  return {(own_weight * own.rad + weight * others_.rad) / (own_weight + weight), 1.0 / std::sqrt(own_weight + weight)};
+}
+
+// The sensor may have been put right since, or be another unit.
+void ElevationOffsetEstimator::doubt_others() {
+  const AngleEstimate own = of_sweeps();
+  if (std::abs(own.rad - others_.rad) > config_.significance * std::hypot(own.sigma_rad, others_.sigma_rad)) {
+    others_ = {};
+  }
+}
+
 void ElevationOffsetEstimator::decide() {
-  const double sigma = sigma_rad();
-  const double estimate = offset_rad();
-  const auto certain = [&](double error) {
-    return std::abs(error) > std::max(config_.significance * sigma, config_.least_deg * kRadPerDeg);
-  };
-  following_ = following_ || certain(estimate) || certain(estimate - config_.initial_deg * kRadPerDeg);
+  const auto [angle, sigma] = estimate();
+  const double enough = std::max(config_.significance * sigma, config_.least_deg * kRadPerDeg);
+  following_ = following_ || std::abs(angle) > enough || std::abs(angle - config_.initial_deg * kRadPerDeg) > enough;
 }
 
 double ElevationOffsetEstimator::target_rad() const {
-  const double estimate = offset_rad();
-  return std::abs(estimate) > std::min(kTakeBack, config_.significance) * sigma_rad() ? estimate : 0.0;
+  const auto [angle, sigma] = estimate();
+  return std::abs(angle) > std::min(kTakeBack, config_.significance) * sigma ? angle : 0.0;
 }
 
 double ElevationOffsetEstimator::known_deg() const {
   return config_.enabled && following_ ? kDegPerRad * target_rad() : config_.initial_deg;
 }
 
-void ElevationOffsetEstimator::begin_with(double initial_deg) {
+void ElevationOffsetEstimator::begin_with(double initial_deg, const AngleEstimate& others) {
   ElevationOffsetConfig config = config_;
   config.initial_deg = initial_deg;
+  const AngleEstimate kept = others;  // may be our own
   *this = ElevationOffsetEstimator(config);
+  others_ = kept;
 }
 
 double ElevationOffsetEstimator::advance() {
+  doubt_others();
   decide();
   if (!config_.enabled || !following_) {
     return 0.0;

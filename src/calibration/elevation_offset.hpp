@@ -10,6 +10,7 @@
 #include <cstddef>
 
 #include "registration/adaptive_icp.hpp"
+#include "rilo/calibration/sensor_angles.hpp"
 #include "rilo/stage_config.hpp"
 
 namespace rilo {
@@ -35,10 +36,9 @@ class ElevationOffsetEstimator {
   /// Adds a sweep that was registered with `applied_rad()` added to its elevation angles.
   void add(const ElevationInformation& sweep);
 
-  /// Estimate of the angle to add to the sensor's elevation angles; the configured one before any sweep.
-  double offset_rad() const;
-  /// Its standard deviation, from the scatter of blocks of sweeps; infinite before there are enough.
-  double sigma_rad() const;
+  /// Estimate of the angle to add to the sensor's elevation angles, and its standard deviation: of the sweeps, and of
+  /// other recordings unless the sweeps contradict. The applied angle and infinite before there are enough sweeps.
+  AngleEstimate estimate() const;
   /// Angle added so far.
   double applied_rad() const { return applied_rad_; }
 
@@ -49,14 +49,22 @@ class ElevationOffsetEstimator {
   /// The angle to begin with in another run: the estimate if that is certain, else the one that this run began with.
   double known_deg() const;
 
-  /// Forgets the sweeps; `initial_deg` is applied from now on, in place of the configured angle.
-  void begin_with(double initial_deg);
+  /// Forgets the sweeps; `initial_deg` is applied from now on, in place of the configured angle. `others`: what other
+  /// recordings say.
+  void begin_with(double initial_deg, const AngleEstimate& others);
+
+  /// What begin_with() was told, unless the sweeps contradict.
+  const AngleEstimate& others() const { return others_; }
 
  private:
+  AngleEstimate of_sweeps() const;
+  double sigma_of_sweeps_rad() const;
+  void doubt_others();
   void decide();
   double target_rad() const;
 
   ElevationOffsetConfig config_;
+  AngleEstimate others_;
   double applied_rad_ = 0;
   bool following_ = false;
   std::size_t sweeps_ = 0;

@@ -30,15 +30,16 @@ void SensorCalibration::move(LocalMap& map) {
 }
 
 SensorAngles SensorCalibration::angles() const {
-  return {kRadPerDeg * elevation_.known_deg(), beams_.corrections(elevation_.applied_rad())};
+  return {kRadPerDeg * elevation_.known_deg(), elevation_.estimate(), beams_.corrections(elevation_.applied_rad())};
 }
 
 void SensorCalibration::begin_with(const SensorAngles& known) {
-  begin_with(kDegPerRad * known.elevation_offset_rad, known.beams);
+  begin_with(kDegPerRad * known.elevation_offset_rad, known.elevation_estimate, known.beams);
 }
 
-void SensorCalibration::begin_with(double elevation_deg, const std::vector<BeamCorrection>& beams) {
-  elevation_.begin_with(elevation_deg);
+void SensorCalibration::begin_with(double elevation_deg, const AngleEstimate& others,
+                                   const std::vector<BeamCorrection>& beams) {
+  elevation_.begin_with(elevation_deg, others);
   beams_.begin_with(beams, elevation_.applied_rad());
   pose_by_elevation_ = {};
   change_rad_ = 0.0;

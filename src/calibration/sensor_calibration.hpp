@@ -46,10 +46,12 @@ class SensorCalibration {
   void begin_with(const SensorAngles& known);
 
   /// Begins anew with what was found, for another pass over the sweeps.
-  void start_over() { begin_with(elevation_.known_deg(), beams_.corrections(elevation_.applied_rad())); }
+  void start_over() {
+    begin_with(elevation_.known_deg(), elevation_.others(), beams_.corrections(elevation_.applied_rad()));
+  }
 
  private:
-  void begin_with(double elevation_deg, const std::vector<BeamCorrection>& beams);
+  void begin_with(double elevation_deg, const AngleEstimate& others, const std::vector<BeamCorrection>& beams);
 
   ElevationOffsetConfig elevation_config_;
   BeamCalibrationConfig beams_config_;

@@ -21,11 +21,14 @@ using detail::kind_of;
 using detail::position_of;
 
 constexpr const char* kOffset = "elevation_offset_deg";
+constexpr const char* kEstimate = "elevation_estimate_deg";
+constexpr const char* kSigma = "elevation_sigma_deg";
 constexpr const char* kBeamList = "beams";
 constexpr const char* kExpectedFile = "calibration.yaml as rilo run leaves it among its results";
 constexpr const char* kExpectedBeam = "[beam, elevation, added to elevation, added to azimuth], in degrees";
 // Beyond these a number is a mistake: errors of sensors are tenths of a degree.
 constexpr double kMostOffsetDeg = 10.0;
+constexpr double kLeastSigmaDeg = 1e-4;
 constexpr double kMostCorrectionDeg = 2.0;
 constexpr double kMostElevationDeg = 90.0;
 constexpr double kMostBeam = 1023.0;
@@ -42,14 +45,23 @@ class CalibrationLoader {
       if (!keys_.insert(key).second) refuse(pair.first, key + " is given a second time", "each key once");
       if (key == kOffset) {
         angles.elevation_offset_rad = kRadPerDeg * number(pair.second, kOffset, -kMostOffsetDeg, kMostOffsetDeg);
+      } else if (key == kEstimate) {
+        angles.elevation_estimate.rad = kRadPerDeg * number(pair.second, kEstimate, -kMostOffsetDeg, kMostOffsetDeg);
+      } else if (key == kSigma) {
+        angles.elevation_estimate.sigma_rad =
+            kRadPerDeg * number(pair.second, kSigma, kLeastSigmaDeg, kMostElevationDeg);
       } else if (key == kBeamList) {
         angles.beams = beams(pair.second);
       } else {
-        refuse(pair.first, "unknown key " + detail::quoted(key), std::string(kOffset) + " and " + kBeamList);
+        refuse(pair.first, "unknown key " + detail::quoted(key),
+               fmt::format("{}, {}, {} and {}", kOffset, kEstimate, kSigma, kBeamList));
       }
     }
     for (const char* key : {kOffset, kBeamList}) {
       if (!keys_.contains(key)) refuse(root, std::string("no ") + key, kExpectedFile);
+    }
+    if (keys_.contains(kEstimate) != keys_.contains(kSigma)) {
+      refuse(root, std::string("only one of ") + kEstimate + " and " + kSigma, "both or none");
     }
     return angles;
   }
@@ -115,9 +127,17 @@ std::string dump_calibration(const SensorAngles& angles, const std::string& sour
   std::string text = fmt::format(
       "# Errors of the sensor's angles, learnt from {}.\n"
       "# For other recordings of the same sensor, read in the same way: rilo run DATA --calibration FILE\n"
-      "{}: {:.6f}  # to be added to all elevation angles\n"
+      "{}: {:.6f}  # to be added to all elevation angles: the estimate, if that is certain\n",
+      one_line(source), kOffset, kDegPerRad * angles.elevation_offset_rad);
+  if (std::isfinite(angles.elevation_estimate.sigma_rad)) {
+    const double sigma_deg =
+        std::clamp(kDegPerRad * angles.elevation_estimate.sigma_rad, kLeastSigmaDeg, kMostElevationDeg);
+    text += fmt::format("{}: {:.6f}  # counts beside that of other recordings\n{}: {:.6f}\n", kEstimate,
+                        kDegPerRad * angles.elevation_estimate.rad, kSigma, sigma_deg);
+  }
+  text += fmt::format(
       "{}:  # ring (without rings: range of elevation angles), its elevation, added to elevation and azimuth, deg\n",
-      one_line(source), kOffset, kDegPerRad * angles.elevation_offset_rad, kBeamList);
+      kBeamList);
   if (angles.beams.empty()) return text + "  []\n";
   for (const BeamCorrection& beam : angles.beams) {
     text += fmt::format("  - [{}, {:.4f}, {:.6f}, {:.6f}]\n", beam.beam, kDegPerRad * beam.elevation_rad,

@@ -32,8 +32,9 @@ void record(const IcpResult& icp, SweepStats& stats) {
 
 void record(const SensorCalibration& calibration, SweepStats& stats) {
   const ElevationOffsetEstimator& elevation = calibration.elevation();
-  stats.elevation_offset_rad = elevation.offset_rad();
-  stats.elevation_offset_sigma_rad = elevation.sigma_rad();
+  const AngleEstimate estimate = elevation.estimate();
+  stats.elevation_offset_rad = estimate.rad;
+  stats.elevation_offset_sigma_rad = estimate.sigma_rad;
   stats.elevation_applied_rad = elevation.applied_rad();
   const Eigen::Vector2d beams_rad = calibration.beams().rms_rad();
   stats.beam_elevation_rms_rad = beams_rad.x();

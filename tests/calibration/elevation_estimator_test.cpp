@@ -41,7 +41,7 @@ TEST(ElevationEstimator, WhatIsKnownBeforehandIsAppliedAtOnceAndFollowed) {
   config.initial_deg = 0.27;  // an early find that was too much: it is 0.21
   ElevationOffsetEstimator estimator(config);
   EXPECT_DOUBLE_EQ(estimator.applied_rad(), 0.27 * kRadPerDeg);
-  EXPECT_DOUBLE_EQ(estimator.offset_rad(), 0.27 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(estimator.estimate().rad, 0.27 * kRadPerDeg);
   see(estimator, 0.21 * kRadPerDeg, 60);
   EXPECT_NEAR(estimator.applied_rad(), 0.21 * kRadPerDeg, 1e-3 * kRadPerDeg);
   config.enabled = false;  // nothing is estimated; what is known counts all the same
@@ -56,12 +56,12 @@ TEST(ElevationEstimator, WhatIsKnownBeforehandIsAppliedAtOnceAndFollowed) {
 TEST(ElevationEstimator, AnotherRunBeginsWithAnEstimateThatWasCertain) {
   ElevationOffsetEstimator estimator({});
   see(estimator, 0.2 * kRadPerDeg, 60);
-  const double found = estimator.offset_rad();
+  const double found = estimator.estimate().rad;
   EXPECT_NEAR(estimator.known_deg(), found / kRadPerDeg, 1e-9);
-  estimator.begin_with(estimator.known_deg());
+  estimator.begin_with(estimator.known_deg(), {});
   EXPECT_NEAR(estimator.applied_rad(), found, 1e-12);
-  EXPECT_EQ(estimator.offset_rad(), estimator.applied_rad());
-  EXPECT_TRUE(std::isinf(estimator.sigma_rad())) << "the same sweeps come again: they must not count twice";
+  EXPECT_EQ(estimator.estimate().rad, estimator.applied_rad());
+  EXPECT_TRUE(std::isinf(estimator.estimate().sigma_rad)) << "the same sweeps come again: they must not count twice";
   see(estimator, 0.1 * kRadPerDeg, 60);
   EXPECT_NEAR(estimator.applied_rad(), 0.1 * kRadPerDeg, 1e-3 * kRadPerDeg);
 
@@ -69,8 +69,36 @@ TEST(ElevationEstimator, AnotherRunBeginsWithAnEstimateThatWasCertain) {
   config.initial_deg = 0.1;
   ElevationOffsetEstimator few(config);
   see(few, 0.4 * kRadPerDeg, 3);  // of which nothing is certain
-  few.begin_with(few.known_deg());
+  few.begin_with(few.known_deg(), {});
   EXPECT_DOUBLE_EQ(few.applied_rad(), 0.1 * kRadPerDeg);
+}
+
+TEST(ElevationEstimator, WhatOtherRecordingsSayCountsByItsInformation) {
+  const AngleEstimate others{0.08 * kRadPerDeg, 0.04 * kRadPerDeg};
+  ElevationOffsetEstimator estimator({});
+  estimator.begin_with(0.0, others);
+  EXPECT_EQ(estimator.estimate().rad, others.rad);
+  EXPECT_EQ(estimator.estimate().sigma_rad, others.sigma_rad);
+  EXPECT_EQ(estimator.advance(), 0.0) << "two standard deviations are not certain";
+  ElevationOffsetEstimator alone({});
+  see(alone, 0.09 * kRadPerDeg, 60);
+  see(estimator, 0.09 * kRadPerDeg, 60);
+  const double own_weight = std::pow(alone.estimate().sigma_rad, -2);
+  const double weight = std::pow(others.sigma_rad, -2);
+  EXPECT_NEAR(estimator.estimate().sigma_rad, 1 / std::sqrt(own_weight + weight), 1e-9);
+  EXPECT_NEAR(estimator.estimate().rad,
+              (own_weight * alone.estimate().rad + weight * others.rad) / (own_weight + weight), 1e-4 * kRadPerDeg);
+  estimator.begin_with(estimator.known_deg(), estimator.others());
+  EXPECT_EQ(estimator.estimate().rad, others.rad) << "the same sweeps come again: they must not count twice";
+}
+
+TEST(ElevationEstimator, OtherRecordingsThatContradictDoNotCount) {
+  ElevationOffsetEstimator estimator({});
+  estimator.begin_with(0.3, {0.3 * kRadPerDeg, 0.001 * kRadPerDeg});
+  see(estimator, -0.1 * kRadPerDeg, 60);
+  EXPECT_TRUE(std::isinf(estimator.others().sigma_rad));
+  EXPECT_NEAR(estimator.estimate().rad, -0.1 * kRadPerDeg, 1e-3 * kRadPerDeg);
+  EXPECT_NEAR(estimator.applied_rad(), -0.1 * kRadPerDeg, 1e-3 * kRadPerDeg);
 }
 
 TEST(ElevationEstimator, ACorrectionIsTakenBackWhenNothingIsLeftOfIt) {
@@ -78,7 +106,7 @@ TEST(ElevationEstimator, ACorrectionIsTakenBackWhenNothingIsLeftOfIt) {
   see(estimator, 0.2 * kRadPerDeg, 30);
   EXPECT_NEAR(estimator.applied_rad(), 0.2 * kRadPerDeg, 1e-3 * kRadPerDeg);
   see(estimator, 0.0, 300);
-  EXPECT_LT(std::abs(estimator.offset_rad()), estimator.sigma_rad());
+  EXPECT_LT(std::abs(estimator.estimate().rad), estimator.estimate().sigma_rad);
   EXPECT_EQ(estimator.applied_rad(), 0.0);
 }
 
@@ -104,20 +132,20 @@ void add(ElevationOffsetEstimator& estimator, double offset_rad, int sweeps) {
 TEST(ElevationEstimator, ResidualsAnswerToTwoThirdsOfAnErrorAndTheLastSweepsCountMost) {
   ElevationOffsetEstimator estimator({});
   add(estimator, 0.001, 1);
-  EXPECT_NEAR(estimator.offset_rad(), 0.001, 1e-12);
+  EXPECT_NEAR(estimator.estimate().rad, 0.001, 1e-12);
   add(estimator, 0.004, 1);  // the one before keeps a quarter
-  EXPECT_NEAR(estimator.offset_rad(), (0.25 * 0.001 + 0.004) / 1.25, 1e-12);
+  EXPECT_NEAR(estimator.estimate().rad, (0.25 * 0.001 + 0.004) / 1.25, 1e-12);
   add(estimator, 0.0, 1);  // 1/9, 4/9
-  EXPECT_NEAR(estimator.offset_rad(), (0.001 + 4.0 * 0.004) / 14.0, 1e-12);
+  EXPECT_NEAR(estimator.estimate().rad, (0.001 + 4.0 * 0.004) / 14.0, 1e-12);
 }
 
 TEST(ElevationEstimator, WhereAllSweepsAgreeTheErrorOfSurfacesIsLeft) {
   ElevationOffsetEstimator estimator({});
   add(estimator, 0.001, 14);
-  EXPECT_TRUE(std::isinf(estimator.sigma_rad())) << "two blocks of five";
+  EXPECT_TRUE(std::isinf(estimator.estimate().sigma_rad)) << "two blocks of five";
   add(estimator, 0.001, 1);
   const double information = 1e9 * 1240.0 / 225.0;  // Σ i² / 15²
-  EXPECT_NEAR(estimator.sigma_rad(), std::sqrt(1.0 / information + std::pow(0.002 / 5.0, 2)), 1e-9);
+  EXPECT_NEAR(estimator.estimate().sigma_rad, std::sqrt(1.0 / information + std::pow(0.002 / 5.0, 2)), 1e-9);
 }
 
 TEST(ElevationEstimator, WhereBlocksDisagreeTheirScatterCounts) {
@@ -140,13 +168,13 @@ TEST(ElevationEstimator, WhereBlocksDisagreeTheirScatterCounts) {
   mean /= total;
   const double blocks = total * total / squares;  // as many of equal weight
   const double expected = (kOff * kOff - mean * mean) / (blocks - 1.0) + std::pow(0.002 / 5.0, 2);
-  EXPECT_NEAR(estimator.sigma_rad(), std::sqrt(expected), 1e-6 * kOff);
+  EXPECT_NEAR(estimator.estimate().sigma_rad, std::sqrt(expected), 1e-6 * kOff);
 }
 
 TEST(ElevationEstimator, SmallErrorsAreNotCorrectedHoweverCertain) {
   ElevationOffsetEstimator small({});
   see(small, 0.07 * kRadPerDeg, 100);
-  EXPECT_GT(small.offset_rad(), 2.5 * small.sigma_rad());
+  EXPECT_GT(small.estimate().rad, 2.5 * small.estimate().sigma_rad);
   EXPECT_EQ(small.applied_rad(), 0.0);
   ElevationOffsetEstimator larger({});
   see(larger, 0.09 * kRadPerDeg, 100);
@@ -158,7 +186,7 @@ TEST(ElevationEstimator, ABlockThatIsNotFullDoesNotScatter) {
   add(estimator, 0.01, 15);
   add(estimator, 0.05, 2);
   const double information = 1e9 * 1785.0 / 289.0;  // Σ i² / 17²
-  EXPECT_NEAR(estimator.sigma_rad(), std::sqrt(1.0 / information + std::pow(0.002 / 5.0, 2)), 1e-8);
+  EXPECT_NEAR(estimator.estimate().sigma_rad, std::sqrt(1.0 / information + std::pow(0.002 / 5.0, 2)), 1e-8);
 }
 
 }  // namespace

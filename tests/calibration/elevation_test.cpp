@@ -167,8 +167,8 @@ TEST(Elevation, NothingSeenNothingSaid) {
   for (int i = 0; i < 50; ++i) {
     estimator.add(none);
   }
-  EXPECT_EQ(estimator.offset_rad(), 0.0);
-  EXPECT_TRUE(std::isinf(estimator.sigma_rad()));
+  EXPECT_EQ(estimator.estimate().rad, 0.0);
+  EXPECT_TRUE(std::isinf(estimator.estimate().sigma_rad));
   EXPECT_EQ(estimator.advance(), 0.0);
 }
 
@@ -230,7 +230,7 @@ TEST(Elevation, OfASweepInDoubtThePoseStillFollowsTheAngle) {
     EXPECT_EQ(calibration.pose_by_elevation().translation, before.translation);
     EXPECT_EQ(calibration.pose_by_elevation().rotation, before.rotation);
   }
-  EXPECT_EQ(calibration.elevation().offset_rad(), 0.0) << "nothing is learnt from it";
+  EXPECT_EQ(calibration.elevation().estimate().rad, 0.0) << "nothing is learnt from it";
 }
 
 SweepResult last_of(double bias_deg, const OdometryConfig& config, double* error_deg = nullptr) {

@@ -86,7 +86,7 @@ TEST_P(SameSensor, BeamsThatAllLieElsewhereAreOfAnotherOne) {
 
 TEST_P(SameSensor, NothingToCompareIsNoDifference) {
   const Sweep sweep = sweep_of(16, -15.0, 2.0, GetParam());
-  EXPECT_EQ(other_sensor({0.01, {}}, sweep), "");
+  EXPECT_EQ(other_sensor({0.01, {}, {}}, sweep), "");
   EXPECT_EQ(other_sensor(learnt_from(sweep), Sweep{}), "");
   Sweep bad = sweep;
   for (std::size_t i = 0; i < bad.points.size(); ++i) {

@@ -54,7 +54,7 @@ TEST_F(Calibration, OfAnotherSensorIsRefused) {
 TEST_F(Calibration, MistakesAreNamed) {
   rilo_fails(2, {"run", data(), "--calibration", out / "none.yaml"}, {"none.yaml", "no such file"});
   rilo_fails(2, {"run", data(), "--calibration", results() / "config.yaml"},
-             {"config.yaml, line ", "elevation_offset_deg and beams"});
+             {"config.yaml, line ", "elevation_offset_deg, elevation_estimate_deg, elevation_sigma_deg and beams"});
 }
 
 TEST_F(Calibration, IsNotReplacedByTheRunThatReadsIt) {

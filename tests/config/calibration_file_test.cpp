@@ -1,6 +1,7 @@
 // calibration.yaml: what is written is read again, anything else is refused with its place.
 #include "rilo/config/calibration_file.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <random>
 #include <string>
@@ -21,6 +22,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 SensorAngles some_angles() {
   SensorAngles angles;
   angles.elevation_offset_rad = -0.205 * kDegree;
+  angles.elevation_estimate = {-0.2 * kDegree, 0.04 * kDegree};
   angles.beams = {{0, -24.8 * kDegree, 0.012345 * kDegree, -0.06 * kDegree}, {1023, 15.0 * kDegree, 0.0, 0.0}};
   return angles;
 }
@@ -40,6 +42,8 @@ TEST(CalibrationFile, WhatIsWrittenIsRead) {
   const std::string text = dump_calibration(some_angles(), "60 sweeps of a: \"b\"\nc # d");
   const SensorAngles read = load_calibration(folder.write("c.yaml", text));
   EXPECT_NEAR(read.elevation_offset_rad, some_angles().elevation_offset_rad, 1e-6 * kDegree);
+  EXPECT_NEAR(read.elevation_estimate.rad, -0.2 * kDegree, 1e-6 * kDegree);
+  EXPECT_NEAR(read.elevation_estimate.sigma_rad, 0.04 * kDegree, 1e-6 * kDegree);
   ASSERT_EQ(read.beams.size(), 2U);
   EXPECT_EQ(read.beams[0].beam, 0);
   EXPECT_EQ(read.beams[1].beam, 1023);
@@ -47,7 +51,9 @@ TEST(CalibrationFile, WhatIsWrittenIsRead) {
   EXPECT_NEAR(read.beams[0].add_elevation_rad, 0.012345 * kDegree, 1e-6 * kDegree);
   EXPECT_NEAR(read.beams[0].add_azimuth_rad, -0.06 * kDegree, 1e-6 * kDegree);
   EXPECT_EQ(dump_calibration(read, "60 sweeps of a: \"b\" c # d"), text);
-  EXPECT_TRUE(parse_calibration(dump_calibration({}, ""), "empty").beams.empty());
+  const SensorAngles empty = parse_calibration(dump_calibration({}, ""), "empty");
+  EXPECT_TRUE(empty.beams.empty());
+  EXPECT_TRUE(std::isinf(empty.elevation_estimate.sigma_rad)) << "nothing is known";
 }
 
 TEST(CalibrationFile, MistakesAreNamedWithTheirPlace) {
@@ -62,6 +68,9 @@ TEST(CalibrationFile, MistakesAreNamedWithTheirPlace) {
   EXPECT_THAT(refusal("elevation_offset_deg: 0.1 deg\nbeams: []"), HasSubstr("\"0.1 deg\""));
   EXPECT_THAT(refusal(offset + "beam: []"), HasSubstr("unknown key \"beam\""));
   EXPECT_THAT(refusal(offset + offset + "beams: []"), HasSubstr("a second time"));
+  EXPECT_THAT(refusal(offset + "elevation_estimate_deg: 0.1\nbeams: []"), HasSubstr("expected both or none"));
+  EXPECT_THAT(refusal(offset + "elevation_estimate_deg: 0.1\nelevation_sigma_deg: 0\nbeams: []"),
+              HasSubstr("elevation_sigma_deg is \"0\"; expected a number from 0.0001 to 90"));
   EXPECT_THAT(refusal(offset + "beams: 3"), HasSubstr("beams is \"3\"; expected a list of beams"));
   EXPECT_THAT(refusal(offset + "beams: [[1, 2, 3]]"), HasSubstr("expected [beam, elevation,"));
   EXPECT_THAT(refusal(offset + "beams: [[1.5, 0, 0, 0]]"), HasSubstr("\"1.5\"; expected a whole number"));

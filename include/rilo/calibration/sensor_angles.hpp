@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace rilo {
@@ -14,10 +15,17 @@ struct BeamCorrection {
   double add_azimuth_rad = 0;    ///< what is added to the azimuth
 };
 
+/// Estimate of an angle (rad).
+struct AngleEstimate {
+  double rad = 0;
+  double sigma_rad = std::numeric_limits<double>::infinity();  ///< standard deviation; infinite: nothing is known
+};
+
 /// Errors of the angles of one unit, in data that are read in the same way.
 struct SensorAngles {
-  double elevation_offset_rad = 0;    ///< to be added to all elevation angles
-  std::vector<BeamCorrection> beams;  ///< beside it; each beam once
+  double elevation_offset_rad = 0;    ///< to be added to all elevation angles: the estimate, if that is certain
+  AngleEstimate elevation_estimate;   ///< certain or not: counts beside that of other recordings
+  std::vector<BeamCorrection> beams;  ///< each beam once
 };
 
 }  // namespace rilo

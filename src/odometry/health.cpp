@@ -11,7 +11,8 @@ bool is_degenerate(const IcpResult& icp, const HealthConfig& config) {
 }
 
 bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
-  if (icp.termination == IcpTermination::kSingular || evidence.shrunk || evidence.cut_off || evidence.ambiguous) {
+  if (icp.termination == IcpTermination::kSingular || evidence.shrunk || evidence.cut_off || evidence.ambiguous ||
+      evidence.displaced) {
     return false;
   }
   if (!icp.converged() && icp.frozen) {

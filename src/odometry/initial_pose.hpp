@@ -79,6 +79,9 @@ class InitialPoseStage {
   /// A map begins with a sweep: its cloud becomes the target, its score the least that is expected.
   void begin(const TimedCloud& source, const MotionState& state, const LocalMap& map);
 
+  /// Usual quality_of() of accepted sweeps; 0: unknown.
+  double usual_quality() const { return usual_quality_; }
+
   /// The usual score, or, while it is not known, what the first sweep of the map scores on itself.
   double expected_score() const { return usual_score_ > 0.0 ? usual_score_ : own_score_; }
 

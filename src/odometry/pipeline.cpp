@@ -180,7 +180,8 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
 Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& registration, SweepResult& result) {
   const MotionVerdict motion = tracker_.weigh(registration.icp.state.T_odom_lidar);
   const Judgement judgement =
-      judge_.judge(prepared, registration, motion, {map_.sweeps(), initial_pose_.expected_score(), tracker_.lost()});
+      judge_.judge(prepared, registration, motion,
+                   {map_.sweeps(), initial_pose_.expected_score(), initial_pose_.usual_quality(), tracker_.lost()});
   result.stats.map_score = registration.score;
   result.status = judgement.status;
   return judgement;
@@ -221,7 +222,7 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   calibration_.learn(prepared, icp, threshold_.sigma_th_m(), config_.icp, sound, map_.map());
   calibration_.apply_to(preprocessor_);
 
-  judge_.accept(prepared);
+  judge_.accept(prepared, registration);
   initial_pose_.learn(result.stats.map_score, established() ? std::optional(registration.quality) : std::nullopt);
   initial_pose_.keep_target(prepared.source, tracker_.state().twist);
   const StageTimes& times = result.stats.times;

@@ -1,6 +1,7 @@
 #include "odometry/sweep_judge.hpp"
 
 #include "odometry/pose_noise.hpp"
+#include "odometry/running_mean.hpp"
 #include "odometry/sweep_map.hpp"
 
 namespace rilo {
@@ -8,6 +9,10 @@ namespace rilo {
 namespace {
 constexpr int kMostBeginnings = 10;    // a robot may start where the place shows no better second sweep
 constexpr double kShrunk = 1.0 / 3.0;  // of the last median range: doors and passing lorries take less at once
+// Of the usual quality and least eigenvalue: right sweeps hardly ever fit worse and see a direction so much less at
+// once.
+constexpr double kFitsWorse = 0.9;
+constexpr double kSeesLess = 0.25;
 /// Out of time while the points still moved by more than that: each update leaves about as much as it was. (With 0.03 m
 /// hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are.)
 bool cut_off(const IcpResult& icp, double range_m) {
@@ -22,6 +27,10 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.score = registration.score;
   evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
   evidence.ambiguous = registration.ambiguous;
+  // After a loss a place that has changed must be taken as it is; so must one that shows a direction no longer.
+  evidence.displaced = !before.was_lost && !is_degenerate(registration.icp, config_) &&
+                       registration.quality < kFitsWorse * before.usual_quality &&
+                       registration.icp.degeneracy.relative_eigenvalues[0] < kSeesLess * usual_eigenvalue_;
   evidence.map_sweeps = before.map_sweeps;
   evidence.usual_score = before.usual_score;
   evidence.was_lost = before.was_lost;
@@ -30,6 +39,15 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.possible_motion = motion != MotionVerdict::kImpossible;
   return {rilo::judge(registration.icp, evidence, config_), motion,
           rilo::fits_map(registration.icp, evidence, config_)};
+}
+
+void SweepJudge::accept(const PreparedSweep& prepared, const Registration& registration) {
+  median_range_m_ = prepared.median_range_m;
+  const double eigenvalue = registration.icp.degeneracy.relative_eigenvalues[0];
+  usual_eigenvalue_ =
+      usual_eigenvalue_ > 0.0 ? usual_eigenvalue_ + kRunningShare * (eigenvalue - usual_eigenvalue_) : eigenvalue;
+  lost_in_a_row_ = 0;
+  begun_in_a_row_ = 0;
 }
 
 }  // namespace rilo

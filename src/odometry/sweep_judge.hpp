@@ -14,6 +14,7 @@ namespace rilo {
 struct JudgedAgainst {
   std::size_t map_sweeps = 0;  ///< sweeps in the map
   double usual_score = 0;      ///< map score of the sweeps before
+  double usual_quality = 0;    ///< quality_of() of them
   bool was_lost = false;       ///< the sweep before was lost
 };
 
@@ -32,14 +33,11 @@ class SweepJudge {
                   const JudgedAgainst& before) const;
 
   /// The sweep goes into the map.
-  void accept(const PreparedSweep& prepared) {
-    median_range_m_ = prepared.median_range_m;
-    lost_in_a_row_ = 0;
-    begun_in_a_row_ = 0;
-  }
+  void accept(const PreparedSweep& prepared, const Registration& registration);
   /// The sweep begins a map.
   void begin(const PreparedSweep& prepared) {
     median_range_m_ = prepared.median_range_m;
+    usual_eigenvalue_ = 0.0;
     lost_in_a_row_ = 0;
     ++begun_in_a_row_;
   }
@@ -51,7 +49,8 @@ class SweepJudge {
 
  private:
   HealthConfig config_;
-  double median_range_m_ = 0;  // of the last sweep in the map
+  double median_range_m_ = 0;    // of the last sweep in the map
+  double usual_eigenvalue_ = 0;  // least relative one of the sweeps in the map; 0: unknown
   int lost_in_a_row_ = 0;
   int begun_in_a_row_ = 0;  // maps, without a second sweep
 };

@@ -120,7 +120,7 @@ TEST(Judging, ARegistrationCutOffFarFromItsEndIsLost) {
   Registration registration;
   registration.icp = registered(IcpTermination::kTimeLimit);
   registration.score = 0.8;
-  const JudgedAgainst before{10, 0.8, false};
+  const JudgedAgainst before{10, 0.8, 0.0, false};
   const SweepJudge judge(kHealth);
   const auto status_after = [&](double turn_rad, double shift_m) {
     registration.icp.last_update << 0.0, 0.0, turn_rad, shift_m, 0.0, 0.0;
@@ -157,21 +157,50 @@ Registration fitting() {
 TEST(SweepJudge, APlaceOfLessThanAThirdOfTheLastIsACover) {
   SweepJudge judge(kHealth);
   judge.begin(sweep_of(60.0));
-  judge.accept(sweep_of(30.0));
+  judge.accept(sweep_of(30.0), fitting());
   const auto at = [&](double range_m) {
-    return judge.judge(sweep_of(range_m), fitting(), MotionVerdict::kPossible, {10, 0.8, false});
+    return judge.judge(sweep_of(range_m), fitting(), MotionVerdict::kPossible, {10, 0.8, 0.0, false});
   };
   EXPECT_EQ(at(10.1).status, OdometryStatus::kOk);
   EXPECT_EQ(at(9.9).status, OdometryStatus::kLost);
   EXPECT_FALSE(at(9.9).fits_map);
-  judge.accept(sweep_of(15.0));
+  judge.accept(sweep_of(15.0), fitting());
   EXPECT_EQ(at(9.9).status, OdometryStatus::kOk);
+}
+
+// Two neighbouring sweeps swapped: each fits the map a little worse, and what showed the way forward has no match.
+TEST(SweepJudge, ASweepThatSuddenlySeesADirectionMuchLessDoesNotBelongThere) {
+  SweepJudge judge(kHealth);
+  judge.begin(sweep_of(10.0));
+  Registration usual = fitting();
+  usual.quality = 20.0;
+  usual.icp.degeneracy.relative_eigenvalues[0] = 0.05;
+  for (int i = 0; i < 10; ++i) judge.accept(sweep_of(10.0), usual);
+  const auto status = [&](double quality, double eigenvalue, bool was_lost = false) {
+    Registration registration = usual;
+    registration.quality = quality;
+    registration.icp.degeneracy.relative_eigenvalues[0] = eigenvalue;
+    return judge.judge(sweep_of(10.0), registration, MotionVerdict::kPossible, {10, 0.8, 20.0, was_lost}).status;
+  };
+  EXPECT_EQ(status(17.0, 0.012), OdometryStatus::kLost);
+  EXPECT_EQ(status(17.0, 0.013), OdometryStatus::kOk);
+  EXPECT_EQ(status(18.1, 0.012), OdometryStatus::kOk) << "a place may show a direction less, when it fits";
+  EXPECT_EQ(status(17.0, 0.004), OdometryStatus::kDegenerate) << "a tunnel begins";
+  EXPECT_EQ(status(17.0, 0.012, true), OdometryStatus::kRecovered) << "a place that has changed is taken as it is";
+  judge.begin(sweep_of(10.0));
+  EXPECT_EQ(status(17.0, 0.012), OdometryStatus::kOk) << "of a new map nothing is usual";
+  Registration less = usual;
+  less.icp.degeneracy.relative_eigenvalues[0] = 0.02;
+  judge.accept(sweep_of(10.0), usual);
+  judge.accept(sweep_of(10.0), less);
+  EXPECT_EQ(status(17.0, 0.0109), OdometryStatus::kLost) << "0.044 is usual: a fifth of the change counts";
+  EXPECT_EQ(status(17.0, 0.0111), OdometryStatus::kOk);
 }
 
 TEST(SweepJudge, AMotionThatIsImpossibleIsAClaim) {
   const SweepJudge judge(kHealth);
   const auto after = [&](MotionVerdict motion) {
-    return judge.judge(sweep_of(10.0), fitting(), motion, {10, 0.8, true});
+    return judge.judge(sweep_of(10.0), fitting(), motion, {10, 0.8, 0.0, true});
   };
   EXPECT_EQ(after(MotionVerdict::kImpossible).status, OdometryStatus::kLost);
   EXPECT_TRUE(after(MotionVerdict::kImpossible).fits_map);
@@ -186,7 +215,7 @@ TEST(SweepJudge, AnEstablishedMapIsGivenUpAfterTenLossesInARow) {
     for (int lost = 1; lost < kHealth.restart_after; ++lost) {
       EXPECT_FALSE(judge.give_up(true)) << lost;
     }
-    judge.accept(sweep_of(10.0));
+    judge.accept(sweep_of(10.0), fitting());
   }
   for (int lost = 1; lost < kHealth.restart_after; ++lost) {
     judge.give_up(true);
@@ -199,7 +228,7 @@ TEST(SweepJudge, AfterTenBeginningsInARowASecondSweepMayLeaveADirectionOpen) {
   Registration along_a_road = fitting();
   along_a_road.icp.degeneracy.relative_eigenvalues[0] = 0.5 * kHealth.degenerate_ratio;
   const auto second = [&] {
-    return judge.judge(sweep_of(10.0), along_a_road, MotionVerdict::kPossible, {1, 0.8, false}).status;
+    return judge.judge(sweep_of(10.0), along_a_road, MotionVerdict::kPossible, {1, 0.8, 0.0, false}).status;
   };
   for (int i = 0; i < 10; ++i) {
     judge.begin(sweep_of(10.0));
@@ -207,7 +236,7 @@ TEST(SweepJudge, AfterTenBeginningsInARowASecondSweepMayLeaveADirectionOpen) {
   }
   judge.begin(sweep_of(10.0));
   EXPECT_EQ(second(), OdometryStatus::kDegenerate);
-  judge.accept(sweep_of(10.0));
+  judge.accept(sweep_of(10.0), fitting());
   judge.begin(sweep_of(10.0));
   EXPECT_EQ(second(), OdometryStatus::kLost) << "no longer in a row";
 }

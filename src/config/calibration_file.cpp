@@ -1,17 +1,18 @@
 #include "rilo/config/calibration_file.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "cloud/beam_index.hpp"
 #include "config/yaml_document.hpp"
 #include "geometry/degrees.hpp"
+#include "io/text.hpp"
 #include "rilo/config/config_file.hpp"
 
 namespace rilo {
@@ -31,7 +32,6 @@ constexpr double kMostOffsetDeg = 10.0;
 constexpr double kLeastSigmaDeg = 1e-4;
 constexpr double kMostCorrectionDeg = 2.0;
 constexpr double kMostElevationDeg = 90.0;
-constexpr double kMostBeam = 1023.0;
 
 class CalibrationLoader {
  public:
@@ -75,12 +75,9 @@ class CalibrationLoader {
     const std::string expected = fmt::format("a number from {} to {}", least, most);
     if (!node.IsScalar()) refuse(node, name + " is " + kind_of(node), expected);
     const std::string& text = node.Scalar();
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !(value >= least && value <= most)) {
-      refuse(node, name + " is " + detail::quoted(text), expected);
-    }
-    return value;
+    const std::optional<double> value = detail::parse_double(text);
+    if (!value || !(*value >= least && *value <= most)) refuse(node, name + " is " + detail::quoted(text), expected);
+    return *value;
   }
 
   std::vector<BeamCorrection> beams(const YAML::Node& list) const {
@@ -89,7 +86,7 @@ class CalibrationLoader {
     std::set<std::uint16_t> seen;
     for (const YAML::Node& entry : list) {
       if (!entry.IsSequence() || entry.size() != 4) refuse(entry, kind_of(entry), kExpectedBeam);
-      const double index = number(entry[0], "a beam", 0, kMostBeam);
+      const double index = number(entry[0], "a beam", 0, kBeams - 1);
       if (index != std::floor(index)) refuse(entry[0], "a beam is " + kind_of(entry[0]), "a whole number");
       const auto beam = static_cast<std::uint16_t>(index);
       if (!seen.insert(beam).second) refuse(entry, fmt::format("beam {} a second time", beam), "each beam once");

@@ -159,12 +159,9 @@ double InitialPoseStage::score(const TimedCloud& source, const MotionState& stat
 
 void InitialPoseStage::learn(double score, std::optional<double> quality) {
   const double share = is_consistent(score) ? kRunningShare : kDoubtfulShare;
-  const auto follow = [share](double& usual, double value) {
-    usual = usual > 0.0 ? usual + share * (value - usual) : value;
-  };
-  follow(usual_score_, score);
+  follow(usual_score_, score, share);
   if (quality) {
-    follow(usual_quality_, *quality);
+    follow(usual_quality_, *quality, share);
   }
 }
 

@@ -43,9 +43,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
 
 void SweepJudge::accept(const PreparedSweep& prepared, const Registration& registration) {
   median_range_m_ = prepared.median_range_m;
-  const double eigenvalue = registration.icp.degeneracy.relative_eigenvalues[0];
-  usual_eigenvalue_ =
-      usual_eigenvalue_ > 0.0 ? usual_eigenvalue_ + kRunningShare * (eigenvalue - usual_eigenvalue_) : eigenvalue;
+  follow(usual_eigenvalue_, registration.icp.degeneracy.relative_eigenvalues[0]);
   lost_in_a_row_ = 0;
   begun_in_a_row_ = 0;
 }

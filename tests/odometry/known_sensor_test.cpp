@@ -68,12 +68,12 @@ TEST(KnownSensor, AnotherRunBeginsWithWhatWasLearnt) {
   Odometry unknown(quick());
   Odometry known(quick());
   known.start_with(learnt);
-  const double without_m = unknown.register_sweep(sweeps[0]).stats.residual_rms_m +
-                           unknown.register_sweep(sweeps[1]).stats.residual_rms_m +
-                           unknown.register_sweep(sweeps[2]).stats.residual_rms_m;
-  const double with_m = known.register_sweep(sweeps[0]).stats.residual_rms_m +
-                        known.register_sweep(sweeps[1]).stats.residual_rms_m +
-                        known.register_sweep(sweeps[2]).stats.residual_rms_m;
+  double without_m = 0;
+  double with_m = 0;
+  for (const Sweep& sweep : sweeps) {
+    without_m += unknown.register_sweep(sweep).stats.residual_rms_m;
+    with_m += known.register_sweep(sweep).stats.residual_rms_m;
+  }
   EXPECT_LT(with_m, 0.95 * without_m);
 }
 

@@ -132,6 +132,20 @@ TEST(KnownSensor, SweepsWithoutPointsSayNothing) {
   EXPECT_THROW(odometry.register_sweep(drive(6.0, 1, SensorKind::kVlp16)[0]), std::invalid_argument);
 }
 
+TEST(KnownSensor, AFragmentOfASweepSaysNothing) {
+  Odometry os1(quick());
+  last_pose(os1, drive(6.0, 5));
+  Odometry odometry(quick());
+  odometry.start_with(os1.sensor_angles());
+  const std::vector<Sweep> others = drive(6.0, 2, SensorKind::kVlp16);
+  Sweep fragment = others[0];  // a recording begins within a sweep
+  fragment.points.resize(50);
+  fragment.times_s.resize(50);
+  fragment.rings.resize(50);
+  EXPECT_NO_THROW(odometry.register_sweep(fragment));
+  EXPECT_THROW(odometry.register_sweep(others[1]), std::invalid_argument);
+}
+
 TEST(KnownSensor, BeamsThatSawNothingStayAsTheyWere) {
   Odometry first(quick());
   last_pose(first, drive(6.0, 6));
@@ -158,6 +172,20 @@ TEST(KnownSensor, BeamsThatSawNothingStayAsTheyWere) {
     }
     known.start_over();
   }
+}
+
+TEST(KnownSensor, BeamsThatAreSwitchedOffStayOff) {
+  const std::vector<Sweep> sweeps = drive(6.0, 6);
+  Odometry first(quick());
+  last_pose(first, sweeps);
+  SensorAngles learnt = first.sensor_angles();
+  OdometryConfig off = quick();
+  off.beams.enabled = false;
+  Odometry known(off);
+  known.start_with(learnt);
+  const SweepStats stats = known.register_sweep(sweeps[0]).stats;
+  EXPECT_EQ(stats.beam_elevation_rms_rad, 0.0) << "what is applied, not what is known";
+  EXPECT_TRUE(known.sensor_angles().beams.empty());
 }
 
 }  // namespace

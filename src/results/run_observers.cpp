@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "console/interrupt.hpp"
+#include "console/text.hpp"
 #include "io/stamp_difference.hpp"
 #include "results/run_metrics.hpp"
 #include "rilo/io/point_times.hpp"

@@ -34,9 +34,12 @@ class PlanReader {
     BenchPlan plan;
     if (!root.IsMap()) refuse(root, kind_of(root), "a map with sequences: and configurations:");
     read_map(root, "", "",
-             {{"sequences", [&](const Node& node) { plan.sequences = list<BenchSequence>(node, "sequences", "{ path: DRIVE }"); }},
+             {{"sequences",
+               [&](const Node& node) { plan.sequences = list<BenchSequence>(node, "sequences", "{ path: DRIVE }"); }},
               {"configurations",
-               [&](const Node& node) { plan.configurations = list<BenchConfiguration>(node, "configurations", "{ name: NAME }"); }},
+               [&](const Node& node) {
+                 plan.configurations = list<BenchConfiguration>(node, "configurations", "{ name: NAME }");
+               }},
               {"repeats", [&](const Node& node) { plan.repeats = count(node, "repeats", 1, kMostRepeats); }},
               {"skip_missing",
                [&](const Node& node) {

@@ -108,7 +108,7 @@ std::string info_text(const nlohmann::json& j, const std::string& options) {
   if (!j["fields"].empty()) text += "; in the data: " + listed(j["fields"]);
   if (!j["unused_fields"].empty()) text += "; not used: " + listed(j["unused_fields"]);
   text += '\n';
-  text += fmt::format("calibration   {}\n", j["calibration"].get<bool>() ? "LiDAR to camera (Tr)" : "none");
+  text += fmt::format("camera        {}\n", j["calibration"].get<bool>() ? "LiDAR to camera (Tr)" : "none");
   const auto& truth = j["truth"];
   if (truth.is_null()) {
     text += "ground truth  none\n";

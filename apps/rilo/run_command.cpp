@@ -174,11 +174,15 @@ int run_command(const RunFlags& flags, const std::string& command_line) {
   RunRecord run;
   run.command_line = command_line;
   run.data = flags.data;
+  run.calibration = flags.calibration;
   run.config = configuration(flags);
   auto session = std::make_unique<Session>(source_of(flags), session_options(flags, run.config));
   check_outputs(flags, flags, flags.config_file);
   prepare_outputs(flags);
   if (flags.out.empty() && !flags.quiet) std::cerr << "rilo: note: results are not kept; --out FOLDER keeps them\n";
+  if (!flags.calibration.empty() && run.config.elevation.initial_deg != 0.0 && !flags.quiet) {
+    std::cerr << "rilo: warning: elevation.initial_deg is ignored: the --calibration says what to begin with\n";
+  }
   const FolderLock lock(flags.out);
   const InterruptGuard guard;
   const auto view = open_view(flags, session->source(), run.config);

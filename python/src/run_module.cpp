@@ -202,7 +202,7 @@ void add_run(py::module_& module) {
       .def_property_readonly(
           "calibration",
           [](const PythonRun& run) {
-            const std::string source = text_of("%zu sweeps of ", run.session.results.size());
+            const std::string source = text_of("%zu sweeps of ", run.session.learnt_from);
             return dump_calibration(run.session.learnt, source + run.session.source.path.string());
           },
           "What was learnt about the sensor's angles, YAML: to be written to a file, or for calibration=.")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <Eigen/LU>
@@ -70,7 +71,11 @@ void BeamCalibration::sum_up(const BeamSample& sample) {
       in_order_.push_back(static_cast<Beam>(b));
     }
   }
-  std::sort(in_order_.begin(), in_order_.end(), [&](Beam a, Beam b) { return beams_[a].tangent < beams_[b].tangent; });
+  sort_by_elevation(in_order_);
+}
+
+void BeamCalibration::sort_by_elevation(std::vector<Beam>& beams) const {
+  std::sort(beams.begin(), beams.end(), [&](Beam a, Beam b) { return beams_[a].tangent < beams_[b].tangent; });
 }
 
 void BeamCalibration::find_steps() {
@@ -110,10 +115,17 @@ void BeamCalibration::apply_differences() {
   }
 }
 
+std::vector<Beam> BeamCalibration::in_use() const {
+  std::vector<Beam> beams = in_order_;
+  std::copy_if(known_.begin(), known_.end(), std::back_inserter(beams),
+               [&](Beam b) { return !(beams_[b].points > 0.0); });
+  sort_by_elevation(beams);
+  return beams;
+}
+
 std::vector<BeamCorrection> BeamCalibration::corrections(double offset_rad) const {
   std::vector<BeamCorrection> all;
-  all.reserve(in_order_.size());
-  for (const Beam b : in_order_) {
+  for (const Beam b : in_use()) {
     const Eigen::Vector2d add = angles_.of(b).cast<double>();
     all.push_back({b, std::atan(beams_[b].tangent) - add.x() - offset_rad, add.x(), add.y()});
   }
@@ -126,16 +138,17 @@ void BeamCalibration::begin_with(const std::vector<BeamCorrection>& known, doubl
     if (beam.beam >= kBeams) continue;
     angles_.at(beam.beam) = Eigen::Vector2d(beam.add_elevation_rad, beam.add_azimuth_rad).cast<float>();
     beams_[beam.beam].tangent = std::tan(beam.elevation_rad + beam.add_elevation_rad + offset_rad);
-    in_order_.push_back(beam.beam);
+    known_.push_back(beam.beam);
   }
 }
 
 Eigen::Vector2d BeamCalibration::rms_rad() const {
+  const std::vector<Beam> beams = in_use();
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
-  for (const Beam b : in_order_) {
+  for (const Beam b : beams) {
     squares += angles_.of(b).cast<double>().cwiseAbs2();
   }
-  return (squares / std::max(1.0, static_cast<double>(in_order_.size()))).cwiseSqrt();
+  return (squares / std::max(1.0, static_cast<double>(beams.size()))).cwiseSqrt();
 }
 
 }  // namespace rilo

@@ -60,12 +60,16 @@ class BeamCalibration {
   void sum_up(const BeamSample& sample);
   void find_steps();
   void apply_differences();
+  void sort_by_elevation(std::vector<Beam>& beams) const;
+  /// Those that the sweeps have shown, and those known before, by elevation.
+  std::vector<Beam> in_use() const;
 
   BeamCalibrationConfig config_;
   BeamAngles angles_;
   std::vector<Information> beams_;
   std::vector<Eigen::Vector2d> steps_;
-  std::vector<Beam> in_order_;  // beams in use, by elevation
+  std::vector<Beam> in_order_;  // beams that the sweeps have shown, by elevation
+  std::vector<Beam> known_;     // beams that were begun with: while no sweep shows them, they keep their angles
   std::vector<Observation> observations_;
   double sweeps_ = 0;
 };

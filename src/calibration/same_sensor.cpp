@@ -58,11 +58,11 @@ std::string unknown_beams(const std::vector<std::optional<double>>& known_rad, c
     if (known_rad[b] && std::abs(*known_rad[b] - here_rad) <= kSameRad) {
       ++same;
     } else if (first.empty()) {
-      first = "beam " + std::to_string(b) + " of this sweep lies at " + degrees(here_rad) +
-              (known_rad[b] ? ", there at " + degrees(*known_rad[b]) : ", there is none there");
+      first = "beam " + std::to_string(b) + " of this sweep lies at " + degrees(here_rad) + ", the calibration has " +
+              (known_rad[b] ? "it at " + degrees(*known_rad[b]) : "no such beam");
     }
   }
-  if (compared == 0) return "all beams of this sweep lie beyond those there";
+  if (compared == 0) return "all beams of this sweep lie beyond those of the calibration";
   return 2 * same < compared ? first : std::string();
 }
 
@@ -83,7 +83,7 @@ std::string missing_beams(const SensorAngles& known, const std::vector<SeenBeam>
     if (*near <= beam.elevation_rad + kNextRad) {
       ++met;
     } else if (first.empty()) {
-      first = "this sweep has no beam at " + degrees(beam.elevation_rad);
+      first = "this sweep has no beam at " + degrees(beam.elevation_rad) + ", the calibration has one";
     }
   }
   return 2 * met < compared ? first : std::string();
@@ -91,10 +91,11 @@ std::string missing_beams(const SensorAngles& known, const std::vector<SeenBeam>
 
 }  // namespace
 
-std::string other_sensor(const SensorAngles& known, const SweepView& sweep) {
+std::optional<std::string> other_sensor(const SensorAngles& known, const SweepView& sweep) {
+  if (known.beams.empty()) return "";
   const std::vector<SeenBeam> seen = beams_of(sweep);
   const bool any = std::any_of(seen.begin(), seen.end(), [](const SeenBeam& b) { return b.points >= kLeastPoints; });
-  if (known.beams.empty() || !any) return {};
+  if (!any) return std::nullopt;
   std::vector<std::optional<double>> known_rad(kBeams);
   double lowest_rad = known.beams.front().elevation_rad;
   double highest_rad = lowest_rad;

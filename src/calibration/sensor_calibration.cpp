@@ -40,7 +40,9 @@ void SensorCalibration::begin_with(const SensorAngles& known) {
 void SensorCalibration::begin_with(double elevation_deg, const AngleEstimate& others,
                                    const std::vector<BeamCorrection>& beams) {
   elevation_.begin_with(elevation_deg, others);
-  beams_.begin_with(beams, elevation_.applied_rad());
+  if (beams_config_.enabled) {
+    beams_.begin_with(beams, elevation_.applied_rad());
+  }
   pose_by_elevation_ = {};
   change_rad_ = 0.0;
 }

@@ -34,9 +34,12 @@ class PlanReader {
     BenchPlan plan;
     if (!root.IsMap()) refuse(root, kind_of(root), "a map with sequences: and configurations:");
     read_map(root, "", "",
-             {{"sequences", [&](const Node& node) { plan.sequences = list<BenchSequence>(node, "sequences"); }},
+             {{"sequences",
+               [&](const Node& node) { plan.sequences = list<BenchSequence>(node, "sequences", "{ path: DRIVE }"); }},
               {"configurations",
-               [&](const Node& node) { plan.configurations = list<BenchConfiguration>(node, "configurations"); }},
+               [&](const Node& node) {
+                 plan.configurations = list<BenchConfiguration>(node, "configurations", "{ name: NAME }");
+               }},
               {"repeats", [&](const Node& node) { plan.repeats = count(node, "repeats", 1, kMostRepeats); }},
               {"skip_missing",
                [&](const Node& node) {
@@ -100,12 +103,12 @@ class PlanReader {
   }
 
   template <typename Item>
-  std::vector<Item> list(const Node& node, const std::string& what) const {
+  std::vector<Item> list(const Node& node, const std::string& what, const std::string& example) const {
     if (!node.IsSequence()) refuse(node, what + " is " + kind_of(node), "a list");
     std::vector<Item> items;
     std::set<std::string> names;
     for (const Node& entry : node) {
-      if (!entry.IsMap()) refuse(entry, kind_of(entry), "a map with name: and more in the list " + what);
+      if (!entry.IsMap()) refuse(entry, kind_of(entry), what + " such as " + example);
       items.push_back(item(entry, static_cast<const Item*>(nullptr)));
       if (!names.insert(items.back().name).second) {
         refuse(entry, "the name " + detail::quoted(items.back().name) + " a second time",

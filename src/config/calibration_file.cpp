@@ -126,7 +126,9 @@ std::string dump_calibration(const SensorAngles& angles, const std::string& sour
       "# For other recordings of the same sensor, read in the same way: rilo run DATA --calibration FILE\n"
       "{}: {:.6f}  # to be added to all elevation angles: the estimate, if that is certain\n",
       one_line(source), kOffset, kDegPerRad * angles.elevation_offset_rad);
-  if (std::isfinite(angles.elevation_estimate.sigma_rad)) {
+  // Sweeps that say next to nothing may lead beyond what a file is believed.
+  const bool believed = std::abs(kDegPerRad * angles.elevation_estimate.rad) <= kMostOffsetDeg;
+  if (believed && std::isfinite(angles.elevation_estimate.sigma_rad)) {
     const double sigma_deg =
         std::clamp(kDegPerRad * angles.elevation_estimate.sigma_rad, kLeastSigmaDeg, kMostElevationDeg);
     text += fmt::format("{}: {:.6f}  # counts beside that of other recordings\n{}: {:.6f}\n", kEstimate,

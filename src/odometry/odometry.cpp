@@ -30,11 +30,12 @@ class Odometry::Impl : public Pipeline {
  private:
   // The known angles are of one unit: on the points of another sensor they would do harm that nothing shows.
   void check_sensor(const SweepView& sweep) {
-    if (!known_ || checked_ || sweep.points.empty()) return;
-    const std::string difference = other_sensor(*known_, sweep);
-    if (!difference.empty()) {
-      throw std::invalid_argument("calibration: of another sensor, or of data read in another way: " + difference +
-                                  "; expected one learnt from this sensor");
+    if (!known_ || checked_) return;
+    const std::optional<std::string> difference = other_sensor(*known_, sweep);
+    if (!difference) return;
+    if (!difference->empty()) {
+      throw std::invalid_argument("calibration: of another sensor, or of data read in another way: " + *difference +
+                                  "; expected one that was learnt from this sensor. A run without it leaves one");
     }
     checked_ = true;
   }

@@ -104,6 +104,7 @@ struct RunMetrics {
   MaybeNumber mean_iterations;
   std::optional<BudgetMetrics> budget;
 
+  std::string calibration;                                       ///< file that the run began with
   MaybeNumber elevation_given_deg;                               ///< by a calibration, or elevation.initial_deg
   MaybeNumber elevation_initial_deg;                             ///< that the first sweep was corrected by
   MaybeNumber elevation_offset_deg, elevation_offset_sigma_deg;  ///< estimated; both or none

@@ -123,6 +123,7 @@ void list_findings(auto& f, auto& m) {
   f.key("coarse_runs", m.coarse_runs);
   f.key("mean_iterations", m.mean_iterations);
   f.maybe("budget", m.budget);
+  f.maybe("calibration", m.calibration);
   f.key("elevation_given_deg", m.elevation_given_deg);
   f.key("elevation_initial_deg", m.elevation_initial_deg);
   f.key("elevation_offset_deg", m.elevation_offset_deg);

@@ -76,6 +76,7 @@ std::optional<BudgetMetrics> budget(const RunRecord& run) {
 
 // What the run found out about the sensor's angles; the correction given on the command line comes on top.
 void add_sensor_angles(const RunRecord& run, RunMetrics& metrics) {
+  metrics.calibration = valid_utf8(run.calibration.string());
   metrics.elevation_given_deg = run.elevation_given_deg;
   metrics.elevation_initial_deg = run.restart ? run.restart->elevation_offset_deg : metrics.elevation_given_deg;
   metrics.elevation_offset_applied_deg = 0.0;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "console/interrupt.hpp"
+#include "console/text.hpp"
 #include "io/stamp_difference.hpp"
 #include "results/run_metrics.hpp"
 #include "rilo/io/point_times.hpp"
@@ -65,8 +66,8 @@ void ProgressLine::on_warning(const std::string& warning) { progress_.say("rilo:
 
 void ProgressLine::on_restart(const Restart& restart) {
   progress_.say(fmt::format(
-      "rilo: {} learnt from: elevation offset of the sensor {:+.3f} deg, single beams rms {:.3f} deg; restarting with "
-      "them (--one-pass: off)",
+      "rilo: learnt from {}: elevation offset of the sensor {:+.3f} deg, single beams rms {:.3f} deg; restarting with "
+      "them (not with --one-pass)",
       counted(restart.after_sweeps, "sweep"), restart.elevation_offset_deg, restart.beam_elevation_rms_deg));
   done_ = 0;
 }

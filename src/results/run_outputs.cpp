@@ -51,7 +51,10 @@ void write_calibration(const fs::path& folder, const RunRecord& run) {
     fs::remove(file);
     return;
   }
-  const std::string source = fmt::format("{} of {}", counted(run.results.size(), "sweep"), run.data.string());
+  std::string source = fmt::format("{} of {}", counted(run.learnt_from, "sweep"), run.data.string());
+  // Whoever takes the file has to read in the same way.
+  const double correction_deg = run.source.elevation_correction_deg;
+  if (correction_deg != 0.0) source += fmt::format(", read with --elevation-correction {}", correction_deg);
   write_atomically(file, dump_calibration(run.learnt, source));
 }
 

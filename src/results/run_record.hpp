@@ -25,10 +25,11 @@ struct TruthMatch {
 struct RunRecord : SessionResult {
   std::string command_line;
   std::filesystem::path data;
-  MapCloud map;                    ///< thinned points of all registered sweeps
-  int signal = 0;                  ///< that ended the run early, 0: none
-  std::string error;               ///< that ended the run early, empty: none
-  ExitCode error_code = kSuccess;  ///< of that error
+  std::filesystem::path calibration;  ///< file that the run began with; empty: none
+  MapCloud map;                       ///< thinned points of all registered sweeps
+  int signal = 0;                     ///< that ended the run early, 0: none
+  std::string error;                  ///< that ended the run early, empty: none
+  ExitCode error_code = kSuccess;     ///< of that error
   std::optional<TruthMatch> truth;
   std::string truth_error;  ///< why ground truth that lies there could not be used
   std::optional<Evaluation> evaluation;

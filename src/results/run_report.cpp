@@ -38,6 +38,7 @@ void add_facts(const RunRecord& run, const RunMetrics& metrics, RunReport& repor
                   {"Point times", valid_utf8(run.source.point_times)},
                   {"Deskewing", compensation_of(run)},
                   {"Elevation correction given", fmt::format("{}°", run.source.elevation_correction_deg)},
+                  {"Calibration given", metrics.calibration.empty() ? "none" : metrics.calibration},
                   {"Elevation offset of the sensor", elevation_of(metrics)},
                   {"Per-beam calibration", fmt::format("rms {:.3f}° in elevation, {:.3f}° in azimuth",
                                                        metrics.beam_elevation_rms_deg, metrics.beam_azimuth_rms_deg)},

@@ -11,10 +11,9 @@ namespace {
 std::string effort(const RunMetrics& m) {
   std::string text;
   if (m.timed()) {
-    text =
-        fmt::format("time per sweep  mean {:.1f} ms, median {:.1f}, p95 {:.1f}, p99 {:.1f}, max {:.1f}  ({} threads)\n",
-                    m.ms.mean.value_or(0), m.ms.median.value_or(0), m.ms.p95.value_or(0), m.ms.p99.value_or(0),
-                    m.ms.max.value_or(0), m.threads);
+    text = fmt::format("time per sweep  mean {:.1f} ms, median {:.1f}, p95 {:.1f}, p99 {:.1f}, max {:.1f}  ({})\n",
+                       m.ms.mean.value_or(0), m.ms.median.value_or(0), m.ms.p95.value_or(0), m.ms.p99.value_or(0),
+                       m.ms.max.value_or(0), counted(static_cast<std::size_t>(m.threads), "thread"));
   }
   return text + fmt::format("peak memory     {:.0f} MB\n", m.peak_rss_mb.value_or(0));
 }
@@ -52,7 +51,8 @@ std::string given_angles(const RunMetrics& m) {
 
 // One name for each of the three: given from outside, estimated, applied on top of what --elevation-correction gives.
 std::string angles(const RunMetrics& m) {
-  std::string text = given_angles(m);
+  std::string text = m.calibration.empty() ? "" : "calibration     " + m.calibration + "\n";
+  text += given_angles(m);
   if (m.elevation_offset_deg) {
     text += fmt::format("elev. offset    estimated {:+.3f} ± {:.3f} deg, applied {:+.3f} deg", *m.elevation_offset_deg,
                         m.elevation_offset_sigma_deg.value_or(0), m.elevation_offset_applied_deg.value_or(0));

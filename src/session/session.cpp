@@ -37,7 +37,8 @@ class Session::Impl {
     result_.source = source_->info();
     result_.config = options_.config;
     result_.elevation_given_deg = elevation_given_deg();
-    result_.learnt = odometry_.sensor_angles();
+    // A second pass that was ended early has learnt less than the first.
+    if (result_.results.size() >= result_.learnt_from) keep_learnt();
     guarded([this] {
       for (SessionObserver* observer : observers_) observer->on_end(odometry_);
     });
@@ -123,11 +124,17 @@ class Session::Impl {
                                 : options_.config.elevation.initial_deg;
   }
 
+  void keep_learnt() {
+    result_.learnt = odometry_.sensor_angles();
+    result_.learnt_from = result_.results.size();
+  }
+
   void start_over() {
     // Before anything is given up: the data may be gone meanwhile.
     auto source = open_();
     source->skip(options_.start);
     source_ = std::move(source);
+    keep_learnt();
     const double beams_rad = result_.results.back().stats.beam_elevation_rms_rad;
     result_.restart = {result_.results.size(), kDegPerRad * odometry_.start_over(), kDegPerRad * beams_rad};
     result_.results.clear();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace rilo {
 namespace {
 
 using testing::HasSubstr;
+using testing::Optional;
 
 /// Beams from `lowest_deg` upwards, each step_deg above the one before, on a cylinder of 20 m.
 Sweep sweep_of(std::size_t beams, double lowest_deg, double step_deg, bool with_rings) {
@@ -47,6 +49,8 @@ SensorAngles learnt_from(const Sweep& sweep) {
   return known;
 }
 
+const auto kRefused = Optional(testing::Not(""));
+
 class SameSensor : public testing::TestWithParam<bool> {};  // with rings
 
 INSTANTIATE_TEST_SUITE_P(Layouts, SameSensor, testing::Bool());
@@ -60,16 +64,17 @@ TEST_P(SameSensor, ItsOwnSweepsAreAccepted) {
 
 TEST_P(SameSensor, AnotherModelIsNot) {
   const SensorAngles known = learnt_from(sweep_of(64, -16.6, 0.53, GetParam()));
-  EXPECT_NE(other_sensor(known, sweep_of(16, -15.0, 2.0, GetParam())), "");
-  EXPECT_NE(other_sensor(known, sweep_of(32, -16.0, 1.0, GetParam())), "");
-  EXPECT_NE(other_sensor(learnt_from(sweep_of(200, -16.0, 0.15, GetParam())), sweep_of(16, -15.0, 2.0, GetParam())), "")
+  EXPECT_THAT(other_sensor(known, sweep_of(16, -15.0, 2.0, GetParam())), kRefused);
+  EXPECT_THAT(other_sensor(known, sweep_of(32, -16.0, 1.0, GetParam())), kRefused);
+  EXPECT_THAT(other_sensor(learnt_from(sweep_of(200, -16.0, 0.15, GetParam())), sweep_of(16, -15.0, 2.0, GetParam())),
+              kRefused)
       << "beams that fill all ranges";
-  EXPECT_THAT(other_sensor(known, sweep_of(64, -24.8, 0.42, GetParam())), HasSubstr("beam "));
+  EXPECT_THAT(other_sensor(known, sweep_of(64, -24.8, 0.42, GetParam())), Optional(HasSubstr("beam ")));
 }
 
 TEST_P(SameSensor, RingsAreNotRangesOfAngles) {
   const SensorAngles known = learnt_from(sweep_of(64, -16.6, 0.53, GetParam()));
-  EXPECT_NE(other_sensor(known, sweep_of(64, -16.6, 0.53, !GetParam())), "");
+  EXPECT_THAT(other_sensor(known, sweep_of(64, -16.6, 0.53, !GetParam())), kRefused);
 }
 
 TEST_P(SameSensor, PartsOfItAreAccepted) {
@@ -81,22 +86,23 @@ TEST_P(SameSensor, PartsOfItAreAccepted) {
 
 TEST_P(SameSensor, BeamsThatAllLieElsewhereAreOfAnotherOne) {
   const SensorAngles known = learnt_from(sweep_of(16, 20.0, 2.0, true));
-  EXPECT_THAT(other_sensor(known, sweep_of(64, -16.6, 0.53, false)), HasSubstr("beyond those there"));
+  EXPECT_THAT(other_sensor(known, sweep_of(64, -16.6, 0.53, false)),
+              Optional(HasSubstr("beyond those of the calibration")));
 }
 
 TEST_P(SameSensor, NothingToCompareIsNoDifference) {
   const Sweep sweep = sweep_of(16, -15.0, 2.0, GetParam());
   EXPECT_EQ(other_sensor({0.01, {}, {}}, sweep), "");
-  EXPECT_EQ(other_sensor(learnt_from(sweep), Sweep{}), "");
+  EXPECT_EQ(other_sensor(learnt_from(sweep), Sweep{}), std::nullopt) << "the next one may say more";
   Sweep bad = sweep;
   for (std::size_t i = 0; i < bad.points.size(); ++i) {
     bad.points[i] = i % 2 == 0 ? Eigen::Vector3f(Eigen::Vector3f::Zero())
                                : Eigen::Vector3f(std::numeric_limits<float>::quiet_NaN(), 1, 1);
   }
-  EXPECT_EQ(other_sensor(learnt_from(sweep), bad), "");
+  EXPECT_EQ(other_sensor(learnt_from(sweep), bad), std::nullopt);
   SensorAngles beyond;
   beyond.beams.push_back({60000, 0.0, 0.0, 0.0});
-  EXPECT_EQ(other_sensor(beyond, Sweep{}), "");
+  EXPECT_EQ(other_sensor(beyond, Sweep{}), std::nullopt);
 }
 
 }  // namespace

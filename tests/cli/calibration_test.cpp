@@ -41,7 +41,21 @@ TEST_F(Calibration, AnotherRunBeginsWithIt) {
               json_file(results() / "metrics.json")["elevation_offset_applied_deg"].get<double>(), 1e-6);
   EXPECT_LT(known["evaluation"]["ape_m"]["rmse"], plain["evaluation"]["ape_m"]["rmse"]);
   EXPECT_THAT(run.out, HasSubstr("elevation given +0."));
+  EXPECT_THAT(run.out, HasSubstr("calibration     " + calibration().string() + "\n"));
+  EXPECT_EQ(known["calibration"], calibration().string());
   EXPECT_TRUE(fs::exists(out / "known" / "calibration.yaml"));
+}
+
+TEST_F(Calibration, SaysHowThePointsWereRead) {
+  rilo_succeeds({"run", data(), "--out", results(), "--no-report", "--elevation-correction", "-0.3"});
+  EXPECT_THAT(slurp(calibration()), HasSubstr("/drive, read with --elevation-correction -0.3.\n"));
+}
+
+TEST_F(Calibration, AConfiguredOffsetBesideItIsIgnoredAndSaid) {
+  const Outcome run = rilo_succeeds(
+      {"run", data(), "--count", "2", "--calibration", calibration(), "--set", "elevation.initial_deg=0.1"});
+  EXPECT_THAT(run.err,
+              HasSubstr("warning: elevation.initial_deg is ignored: the --calibration says what to begin with"));
 }
 
 TEST_F(Calibration, OfAnotherSensorIsRefused) {

@@ -25,7 +25,7 @@ TEST(InfoCommand, JsonOfADrive) {
 TEST(InfoCommand, TextOfADrive) {
   const Outcome info = rilo_succeeds({"info", shared_drive()});
   expect_parts(info.out,
-               {"12 sweeps", "points", "range", "point times", "calibration", "ground truth", "12 poses", "(10.00 Hz)",
+               {"12 sweeps", "points", "range", "point times", "camera ", "ground truth", "12 poses", "(10.00 Hz)",
                 "from 0.0", "for 1.1 s", "intensity: yes; ring: no", "to run it", "--out results"});
   EXPECT_EQ(info.err, "");
 }

@@ -56,6 +56,14 @@ TEST(CalibrationFile, WhatIsWrittenIsRead) {
   EXPECT_TRUE(std::isinf(empty.elevation_estimate.sigma_rad)) << "nothing is known";
 }
 
+TEST(CalibrationFile, WhatIsLeftCanBeRead) {
+  SensorAngles angles = some_angles();  // of a few sweeps that say next to nothing
+  angles.elevation_estimate = {15.0 * kDegree, 120.0 * kDegree};
+  EXPECT_TRUE(std::isinf(parse_calibration(dump_calibration(angles, ""), "c.yaml").elevation_estimate.sigma_rad));
+  angles.elevation_estimate = {5.0 * kDegree, 120.0 * kDegree};
+  EXPECT_NEAR(parse_calibration(dump_calibration(angles, ""), "c.yaml").elevation_estimate.rad, 5.0 * kDegree, 1e-6);
+}
+
 TEST(CalibrationFile, MistakesAreNamedWithTheirPlace) {
   const std::string offset = "elevation_offset_deg: 0.1\n";
   EXPECT_THAT(refusal(""), HasSubstr("calibration.yaml as rilo run leaves it"));

@@ -132,5 +132,61 @@ TEST(KnownSensor, SweepsWithoutPointsSayNothing) {
   EXPECT_THROW(odometry.register_sweep(drive(6.0, 1, SensorKind::kVlp16)[0]), std::invalid_argument);
 }
 
+TEST(KnownSensor, AFragmentOfASweepSaysNothing) {
+  Odometry os1(quick());
+  last_pose(os1, drive(6.0, 5));
+  Odometry odometry(quick());
+  odometry.start_with(os1.sensor_angles());
+  const std::vector<Sweep> others = drive(6.0, 2, SensorKind::kVlp16);
+  Sweep fragment = others[0];  // a recording begins within a sweep
+  fragment.points.resize(50);
+  fragment.times_s.resize(50);
+  fragment.rings.resize(50);
+  EXPECT_NO_THROW(odometry.register_sweep(fragment));
+  EXPECT_THROW(odometry.register_sweep(others[1]), std::invalid_argument);
+}
+
+TEST(KnownSensor, BeamsThatSawNothingStayAsTheyWere) {
+  Odometry first(quick());
+  last_pose(first, drive(6.0, 6));
+  const SensorAngles learnt = first.sensor_angles();
+  ASSERT_EQ(learnt.beams.size(), 64U);
+  std::vector<Sweep> sweeps = drive(20.0, 4);
+  for (Sweep& sweep : sweeps) {
+    for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+      if (sweep.rings[i] < 20) sweep.points[i].setZero();
+    }
+  }
+  Odometry known(quick());
+  known.start_with(learnt);
+  last_pose(known, sweeps);
+  for (int pass = 0; pass < 2; ++pass) {
+    const SensorAngles after = known.sensor_angles();
+    ASSERT_EQ(after.beams.size(), 64U) << "in pass " << pass;
+    for (const BeamCorrection& beam : after.beams) {
+      const auto before = std::find_if(learnt.beams.begin(), learnt.beams.end(),
+                                       [&](const BeamCorrection& b) { return b.beam == beam.beam; });
+      if (beam.beam >= 20) continue;
+      EXPECT_NEAR(beam.add_elevation_rad, before->add_elevation_rad, 1e-9) << "beam " << beam.beam;
+      EXPECT_NEAR(beam.elevation_rad, before->elevation_rad, 0.1 * kRadPerDeg);
+    }
+    known.start_over();
+  }
+}
+
+TEST(KnownSensor, BeamsThatAreSwitchedOffStayOff) {
+  const std::vector<Sweep> sweeps = drive(6.0, 6);
+  Odometry first(quick());
+  last_pose(first, sweeps);
+  SensorAngles learnt = first.sensor_angles();
+  OdometryConfig off = quick();
+  off.beams.enabled = false;
+  Odometry known(off);
+  known.start_with(learnt);
+  const SweepStats stats = known.register_sweep(sweeps[0]).stats;
+  EXPECT_EQ(stats.beam_elevation_rms_rad, 0.0) << "what is applied, not what is known";
+  EXPECT_TRUE(known.sensor_angles().beams.empty());
+}
+
 }  // namespace
 }  // namespace rilo

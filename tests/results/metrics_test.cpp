@@ -122,6 +122,17 @@ TEST(Metrics, TheSummaryAddsUpTheAnglesThatWereGiven) {
   EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("elevation given +0.100 deg to begin with\n"));
 }
 
+TEST(Metrics, TheCalibrationThatARunBeganWithIsNamed) {
+  RunRecord run = short_run();
+  EXPECT_FALSE(to_json(run_metrics(run)).contains("calibration"));
+  EXPECT_THAT(run_summary(run_metrics(run)), Not(HasSubstr("calibration  ")));
+  run.calibration = "other/calibration.yaml";  // its offset may be 0: the beams count, too
+  const json metrics = to_json(run_metrics(run));
+  EXPECT_EQ(metrics["calibration"], "other/calibration.yaml");
+  EXPECT_EQ(to_json(metrics_of(metrics, "metrics.json")), metrics);
+  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("\ncalibration     other/calibration.yaml\n"));
+}
+
 TEST(Metrics, AFigureWithoutAnErrorBehindItIsNone) {
   const std::vector<SE3> standing(3, SE3::Identity());
   const json metrics = to_json(evaluation_metrics(evaluate(standing, standing)));

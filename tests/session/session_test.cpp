@@ -1,6 +1,7 @@
 // Session: one run over a source, its observers, and what ends it.
 #include "rilo/session/session.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
@@ -160,6 +161,29 @@ TEST(Session, AnInterruptEndsItAfterTheSweep) {
   EXPECT_TRUE(run.interrupted);
   EXPECT_EQ(run.failure, nullptr);
   EXPECT_EQ(run.results.size(), 4U);
+}
+
+TEST(Session, ASecondPassThatIsEndedEarlyKeepsWhatTheFirstLearnt) {
+  SessionOptions options = soon_certain();
+  options.one_pass = true;
+  const SessionResult first = Session(open_drive, options).run();
+  ASSERT_TRUE(std::isfinite(first.learnt.elevation_estimate.sigma_rad));
+  EXPECT_EQ(first.learnt_from, kSweeps);
+
+  options.one_pass = false;
+  std::size_t asked = 0;
+  options.interrupted = [&asked] { return ++asked > kSweeps + 4; };
+  const SessionResult run = Session(open_drive, options).run();
+  ASSERT_TRUE(run.restart);
+  ASSERT_LT(run.results.size(), 10U);
+  EXPECT_EQ(run.learnt.elevation_estimate.rad, first.learnt.elevation_estimate.rad);
+  EXPECT_EQ(run.learnt.elevation_estimate.sigma_rad, first.learnt.elevation_estimate.sigma_rad);
+  EXPECT_EQ(run.learnt_from, kSweeps);
+
+  options.interrupted = {};
+  const SessionResult whole = Session(open_drive, options).run();
+  EXPECT_NE(whole.learnt.elevation_estimate.rad, first.learnt.elevation_estimate.rad) << "of the second pass";
+  EXPECT_EQ(whole.learnt_from, kSweeps);
 }
 
 TEST(Session, AnErrorKeepsWhatWasDoneBefore) {

@@ -68,7 +68,8 @@ struct SessionResult {
   CompensationTrial trial;                       ///< of points without times
   std::optional<Restart> restart;                ///< when there was a second pass
   double elevation_given_deg = 0;                ///< offset of the calibration; without one elevation.initial_deg
-  SensorAngles learnt;                           ///< Odometry::sensor_angles at the end
+  SensorAngles learnt;                           ///< Odometry::sensor_angles after the pass with more sweeps
+  std::size_t learnt_from = 0;                   ///< sweeps of that pass
   PoseInstant pose_instant = PoseInstant::kMid;  ///< of the sweep, that the poses refer to
   double wall_s = 0;                             ///< duration of the run, both passes; not of the trial
   double peak_rss_mb = 0;                        ///< largest memory of this process so far

@@ -30,14 +30,12 @@ struct Sums {
   double square = 0;
   double gradient = 0;
   double weight = 0;
-  double squared_error = 0;
 
   void operator+=(const Sums& other) {
     mixed += other.mixed;
     square += other.square;
     gradient += other.gradient;
     weight += other.weight;
-    squared_error += other.squared_error;
   }
 };
 
@@ -60,7 +58,6 @@ Sums sums_of(const RegisteredSource& sweep, const LocalMap& map, const PoseDeriv
     sum.square += w * c * c;
     sum.gradient -= w * c * e;
     sum.weight += w;
-    sum.squared_error += w * e * e;
   });
 }
 
@@ -77,8 +74,8 @@ ElevationInformation elevation_information(const TimedCloud& source, const Local
   if (!(total.weight > 0.0)) {
     return result;
   }
-  const double variance = std::max(total.squared_error / total.weight, config.noise_m * config.noise_m);
-  const double scale = static_cast<double>(stride) * config.independent_share / variance;
+  // As in the posterior: with a scale of its own the pose could explain more than there is.
+  const double scale = static_cast<double>(stride) * icp.unit_information;
   // At the registered pose the gradient of pose and velocity is zero: the complement changes the information alone.
   const Vector12d solved = icp.posterior_information.ldlt().solve(scale * total.mixed);
   const double information = scale * total.square - scale * total.mixed.dot(solved);

@@ -50,10 +50,10 @@ namespace {
 bool step(const NormalEquations& sums, const Matrix6d& unconfirmed, const MotionPrior& prior,
           const AdaptiveIcpConfig& config, double information_scale, IcpResult& result, Vector12d& delta) {
   const double variance = sums.squared_error / sums.weight;
-  const double scale =
-      information_scale * config.independent_share / std::max(variance, config.noise_m * config.noise_m);
   result.inliers = sums.count;
   result.residual_rms_m = std::sqrt(variance);
+  result.unit_information = config.independent_share / std::max(variance, config.noise_m * config.noise_m);
+  const double scale = information_scale * result.unit_information;
   result.lidar_information = scale * sums.pose_hessian();
   result.degeneracy = analyse_degeneracy(result.lidar_information, kUnconfirmedMargin * scale * unconfirmed);
   Matrix12d H = scale * sums.hessian();

@@ -82,8 +82,9 @@ struct IcpResult {
   bool frozen = false;                      ///< points were held to their correspondences for it to converge
   std::size_t inliers = 0;
   double residual_rms_m = 0;
-  Matrix6d lidar_information = Matrix6d::Zero();        ///< of the pose, sweep alone, same perturbation as MotionPrior
-  Matrix12d sweep_information = Matrix12d::Zero();      ///< of pose and velocity, sweep alone, weak directions faded
+  double unit_information = 0;                      ///< of a residual with weight 1 (1/m²), in all information below
+  Matrix6d lidar_information = Matrix6d::Zero();    ///< of the pose, sweep alone, same perturbation as MotionPrior
+  Matrix12d sweep_information = Matrix12d::Zero();  ///< of pose and velocity, sweep alone, weak directions faded
   Matrix12d posterior_information = Matrix12d::Zero();  ///< the same and the prior's
   PoseDegeneracy degeneracy;
 

@@ -106,13 +106,12 @@ TEST(Elevation, TheGradientAgreesWithDifferences) {
   IcpResult icp;
   icp.state.T_odom_lidar = se3_exp(moved);
   icp.posterior_information = 1e9 * Matrix12d::Identity();
+  icp.unit_information = 1.0;
   sampling.spacing_m = 0.11;
   sampling.T_world_sensor = icp.state.T_odom_lidar;
   const TimedCloud source{make_box_room({9.3, 7.1, 3.3}, sampling), {}};
   icp.state.T_odom_lidar.translation().z() += 0.01;  // residuals that are not noise alone
   AdaptiveIcpConfig config;
-  config.noise_m = 1.0;  // unit scale
-  config.independent_share = 1.0;
   config.gate = 0.001;
   const PoseDerivative pose_derivative{Eigen::Vector3d(0.1, 0.2, 0.3), Eigen::Vector3d(0.01, -0.02, 0.03),
                                        Eigen::Vector3d(0, 0, 0.4)};
@@ -143,6 +142,7 @@ TEST(Elevation, TheMapMovesOnceAndNotBeforeItIsTold) {
   IcpResult icp;
   icp.state.T_odom_lidar.translation() << 2.5, 1.5, 0.3;
   icp.posterior_information = 1e9 * Matrix12d::Identity();
+  icp.unit_information = 25.0;  // as with the usual noise and share
   sampling.spacing_m = 0.11;
   sampling.T_world_sensor = icp.state.T_odom_lidar;
   PreparedSweep sweep;
@@ -182,12 +182,11 @@ TEST(Elevation, PoseAndVelocityAreEliminated) {
     source.offsets_s.push_back(static_cast<float>(0.05 / test::kPi) * std::atan2(p.y(), p.x()));
   }
   AdaptiveIcpConfig config;
-  config.noise_m = 1.0;  // unit scale
-  config.independent_share = 1.0;
   config.gate = 0.001;
   constexpr double kUnitWeights = 1e3;
   icp.posterior_information = linearise(source, map, icp.state, kUnitWeights, config).hessian();
   icp.posterior_information.diagonal().array() += 1.0;
+  icp.unit_information = 1.0;
 
   constexpr double kStep = 5e-4;
   const auto sums_at = [&](double angle_rad) {
@@ -212,6 +211,16 @@ TEST(Elevation, PoseAndVelocityAreEliminated) {
   EXPECT_NEAR(sweep.information, expected, 0.1 * expected);
   EXPECT_LT((sweep.pose.rotation - follows.head<3>()).norm(), 0.1 * follows.head<3>().norm());
   EXPECT_LT((sweep.pose.translation - follows.segment<3>(3)).norm(), 0.1 * follows.segment<3>(3).norm());
+
+  // A registration that trusts its residuals less, since bushes scatter more than planes: all counts less, and the pose
+  // explains no more than before.
+  icp.unit_information *= 0.4;
+  icp.posterior_information *= 0.4;
+  const ElevationInformation vague = elevation_information(source, map, icp, kUnitWeights, config, {}, 1);
+  EXPECT_NEAR(vague.information, 0.4 * sweep.information, 1e-6 * sweep.information);
+  EXPECT_NEAR(vague.gradient, 0.4 * sweep.gradient, 1e-6 * std::abs(sweep.gradient));
+  EXPECT_NEAR(vague.jacobian_m, sweep.jacobian_m, 1e-6 * sweep.jacobian_m);
+  EXPECT_LT((vague.pose.rotation - sweep.pose.rotation).norm(), 1e-6 * sweep.pose.rotation.norm());
 }
 
 TEST(Elevation, OfASweepInDoubtThePoseStillFollowsTheAngle) {
@@ -219,6 +228,7 @@ TEST(Elevation, OfASweepInDoubtThePoseStillFollowsTheAngle) {
   IcpResult icp;
   icp.state.T_odom_lidar = se3_exp(test::twist(0.0, 0.002, 0.01, 0.6, 0.2, 0.01));
   icp.posterior_information = 1e8 * Matrix12d::Identity();
+  icp.unit_information = 25.0;
   PreparedSweep sweep;
   sweep.source.points = test::seen_from(icp.state.T_odom_lidar, test::rimless_room(0.23, 0.37, 1.3));
   SensorCalibration calibration({}, BeamCalibrationConfig{false});

@@ -49,7 +49,7 @@ std::vector<Field> fields_of(const std::filesystem::path& file, const std::strin
 std::optional<std::string> promised_field(ScanListing& listing, const SourceOptions& options) {
   try {
     const std::vector<Field> fields = fields_of(listing.files.front(), listing.info.format, options);
-    const FieldRoles roles = find_roles(fields, options.time_field, listing.files.front());
+    const FieldRoles roles = find_roles(fields, options.time_field, {listing.files.front()});
     listing.info.fields = describe_fields(fields, roles);
     if (roles.time) return "field " + fields[*roles.time].name;
   } catch (const IoError&) {

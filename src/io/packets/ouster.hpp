@@ -50,6 +50,8 @@ struct OusterLayout {
   std::size_t column_bytes(std::size_t pixels) const { return column_header + pixels * pixel + column_footer; }
 };
 OusterLayout ouster_layout(OusterProfile profile);
+/// As the metadata have it: "RNG15_RFL8_NIR8".
+std::string to_string(OusterProfile profile);
 std::size_t ouster_packet_bytes(const OusterMetadata& metadata);
 
 /// A sweep is a frame of the sensor.

@@ -10,20 +10,6 @@
 namespace rilo::detail {
 namespace {
 
-const char* name_of(OusterProfile profile) {
-  switch (profile) {
-    case OusterProfile::kLegacy:
-      return "LEGACY";
-    case OusterProfile::kRng15:
-      return "RNG15_RFL8_NIR8";
-    case OusterProfile::kRng19:
-      return "RNG19_RFL8_SIG16_NIR16";
-    case OusterProfile::kRng19Dual:
-      break;
-  }
-  return "RNG19_RFL8_SIG16_NIR16_DUAL, the first of two returns";
-}
-
 struct Pixel {
   double range_m = 0;
   float reflectivity = 0;
@@ -58,7 +44,8 @@ class OusterDecoder final : public PacketDecoder {
 
   std::string description() const override {
     const std::string product = metadata_.product.empty() ? "" : " " + metadata_.product;
-    return "Ouster" + product + ", " + name_of(metadata_.profile);
+    const bool dual = metadata_.profile == OusterProfile::kRng19Dual;
+    return "Ouster" + product + ", " + to_string(metadata_.profile) + (dual ? ", the first of two returns" : "");
   }
   std::size_t clock_resets() const override { return clock_.resets(); }
   bool accepts(std::string_view payload) const override { return payload.size() == packet_bytes_; }

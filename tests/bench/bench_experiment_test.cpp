@@ -6,6 +6,7 @@
 
 #include "bench/cell_file.hpp"
 #include "bench/content_hash.hpp"
+#include "bench/output.hpp"
 #include "bench/slurm_commands.hpp"
 #include "bench/store.hpp"
 #include "io/io_test_util.hpp"
@@ -165,6 +166,18 @@ TEST(BenchStore, RefusesWhatIsNone) {
   test::expect_io_error([&] { read_store(text); }, {"text", "SQLite3"});
   const auto empty = folder.write("empty", "");
   test::expect_io_error([&] { read_store(empty); }, {"another kind"});
+}
+
+TEST(BenchOutput, WhatCannotBeReplacedIsSaid) {
+  const TempDir folder;
+  folder.write("paired.csv/in.the.way", "");
+  const BenchStore store;
+  try {
+    write_results(folder.path(), bench_output(store), store);
+    FAIL() << "written";
+  } catch (const RunError& error) {
+    EXPECT_EQ(error.kind(), RunErrorKind::kCannotWrite);
+  }
 }
 
 TEST(BenchRepeats, TimesAreMediansAndFindingsMustAgree) {

@@ -5,6 +5,7 @@
 
 #include "io/io_test_util.hpp"
 #include "results/metrics_json.hpp"
+#include "results/pose_files.hpp"
 #include "results/run_metrics.hpp"
 #include "results/run_outputs.hpp"
 
@@ -93,6 +94,21 @@ TEST(SavedRun, SaysWhatIsMissing) {
   EXPECT_THAT(refusal(folder / "nowhere"), HasSubstr("no such folder"));
   EXPECT_THAT(refusal(folder.write("file", "")), HasSubstr("a file"));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("neither metrics.json nor"));
+}
+
+// Longer than a file system takes, so that looking at it fails, too.
+TEST(Paths, ThatCannotBeLookedAtAreRefusedAsSuch) {
+  const TempDir folder;
+  const std::filesystem::path name = folder / std::string(300, 'n');
+  EXPECT_THROW(read_poses(name), IoError);
+  EXPECT_THROW(read_truth(name, PoseInstant::kMid), IoError);
+  try {
+    create_folder(name);
+    FAIL() << "created";
+  } catch (const RunError& error) {
+    EXPECT_EQ(error.kind(), RunErrorKind::kCannotWrite);
+    EXPECT_THAT(error.what(), HasSubstr("choose another --out"));
+  }
 }
 
 }  // namespace

@@ -105,11 +105,8 @@ void check_apart(const fs::path& folder, const fs::path& data) {
 
 void check_replaced(const fs::path& file, const std::string& mark, const std::string& what, const std::string& option) {
   if (!detail::is_file(file)) return;  // nothing there, or no regular file, which writing refuses
-  std::ifstream stream(file, std::ios::binary);
-  std::string head(kHead, '\0');
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(stream.gcount()));
-  if (!head.empty() && head.find(mark) == std::string::npos) {
+  const detail::FileBytes head = detail::read_file(file, kHead);
+  if (head.size > 0 && head.view().find(mark) == std::string_view::npos) {
     refuse(file, "would be replaced, and is no " + what, "choose another " + option + ", or move the file");
   }
 }

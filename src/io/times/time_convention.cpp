@@ -97,6 +97,7 @@ void check_told_unit(const TimeField& field, PointTimeUnit told, const std::opti
 
 double seconds_per(PointTimeUnit unit, double period_s) {
   constexpr std::array<double, 5> kSeconds{1, 1, 1e-3, 1e-6, 1e-9};  // kInfer … kNanoseconds
+  static_assert(static_cast<std::size_t>(PointTimeUnit::kFraction) == kSeconds.size());
   return unit == PointTimeUnit::kFraction ? period_s : kSeconds[static_cast<std::size_t>(unit)];
 }
 

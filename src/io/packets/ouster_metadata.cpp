@@ -18,14 +18,15 @@ using nlohmann::json;
 constexpr std::size_t kLargestFile = std::size_t{1} << 22;
 
 struct ProfileRow {
-  const char* name;
+  const char* name = "";
   OusterLayout layout;
 };
 // In the order of OusterProfile.
-constexpr std::array<ProfileRow, 4> kProfiles{{{"LEGACY", {0, 16, 4, 12, 0}},
-                                               {"RNG15_RFL8_NIR8", {32, 12, 0, 4, 32}},
-                                               {"RNG19_RFL8_SIG16_NIR16", {32, 12, 0, 12, 32}},
-                                               {"RNG19_RFL8_SIG16_NIR16_DUAL", {32, 12, 0, 16, 32}}}};
+constexpr std::array<ProfileRow, 4> kProfiles{
+    {{"LEGACY", {0, 16, 4, 12, 0, 0xFFFFF, 1, 4, true}},
+     {"RNG15_RFL8_NIR8", {32, 12, 0, 4, 32, 0x7FFF, 8, 2, false}},
+     {"RNG19_RFL8_SIG16_NIR16", {32, 12, 0, 12, 32, 0x7FFFF, 1, 4, false}},
+     {"RNG19_RFL8_SIG16_NIR16_DUAL", {32, 12, 0, 16, 32, 0x7FFFF, 1, 3, false}}}};
 
 class MetadataText {
  public:

@@ -14,7 +14,7 @@
 #include "io/atomic_file.hpp"
 #include "report/html_report.hpp"
 #include "results/output_check.hpp"
-#include "rilo/io/io_error.hpp"
+#include "results/run_outputs.hpp"
 
 namespace rilo::cli {
 
@@ -46,11 +46,7 @@ struct ReportFlags {
 
 void write_page(const std::string& file, const ReportPage& page) {
   const std::string html = html_report(page);
-  try {
-    write_atomically(file, html);
-  } catch (const IoError& error) {
-    throw RunError(RunErrorKind::kCannotWrite, error.what());
-  }
+  guard_writing([&] { write_atomically(file, html); });
 }
 
 int report(const ReportFlags& flags) {

@@ -13,6 +13,8 @@
 
 #include <fmt/format.h>
 
+#include "io/text.hpp"
+
 namespace rilo {
 
 namespace fs = std::filesystem;
@@ -22,14 +24,16 @@ namespace {
 constexpr int kDeepestFolder = 4;
 constexpr std::uintmax_t kLargestText = std::uintmax_t{16} << 20;
 
+std::string extension_of(const fs::path& file) { return detail::lower_case(file.extension().string()); }
+
 bool is_text(const fs::path& file) {
-  static const std::set<fs::path> kTexts = {".txt", ".yaml", ".yml", ".json", ".csv"};
-  return kTexts.contains(file.extension());
+  static const std::set<std::string> kTexts = {".txt", ".yaml", ".yml", ".json", ".csv"};
+  return kTexts.contains(extension_of(file));
 }
 
 bool is_data(const fs::path& file) {
-  static const std::set<fs::path> kData = {".bin", ".pcd", ".ply", ".bag", ".db3", ".mcap", ".pcap"};
-  return is_text(file) || kData.contains(file.extension());
+  static const std::set<std::string> kData = {".bin", ".pcd", ".ply", ".bag", ".db3", ".mcap", ".pcap", ".zstd"};
+  return is_text(file) || kData.contains(extension_of(file));
 }
 
 // A line that changes when the file does.
@@ -60,14 +64,16 @@ void list_folder(const fs::path& folder, const fs::path& results, Lines& lines) 
   }
 }
 
-// KITTI's poses and calibration of raw drives, an Ouster's metadata: beside the data rather than in them.
+// KITTI's poses and calibration of raw drives, stamps, an Ouster's metadata: beside the data rather than in them.
 void list_neighbours(const fs::path& data, Lines& lines) {
   std::error_code error;
   const fs::path whole = fs::canonical(data, error);
   if (error) return;
   const fs::path beside = whole.parent_path();
-  for (const fs::path& file : {beside.parent_path() / "poses" / (whole.filename().string() + ".txt"),
-                               beside / "calib_velo_to_cam.txt", beside / "calib_cam_to_cam.txt"}) {
+  for (const fs::path& file :
+       {beside.parent_path() / "poses" / (whole.filename().string() + ".txt"), beside / "calib_velo_to_cam.txt",
+        beside / "calib_cam_to_cam.txt", beside / "calib_imu_to_velo.txt", beside / "times.txt",
+        beside / "timestamps.txt", fs::path(whole).concat(".json")}) {
     if (fs::exists(file, error)) lines["../" + file.filename().string()] = line_of(file.filename().string(), file);
   }
   if (!fs::is_regular_file(whole, error)) return;

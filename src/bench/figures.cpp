@@ -10,6 +10,7 @@
 #include "console/text.hpp"
 #include "console/version.hpp"
 #include "evaluation/percentile.hpp"
+#include "results/evaluation_output.hpp"
 
 namespace rilo {
 
@@ -57,9 +58,7 @@ nlohmann::json summary_json(const BenchSummary& summary) {
           {"kind", summary.peer ? "peer" : "run"},
           {"sequences", summary.cells},
           {"failed", summary.failed},
-          {"pooled",
-           {{"t_rel_pct", or_null(summary.kitti.pooled_t_rel_pct)},
-            {"r_rel_deg_per_100m", or_null(summary.kitti.pooled_r_rel_deg_100m)}}},
+          {"pooled", benchmark_json(summary.kitti)["pooled"]},
           {"sequence_mean", means}};
 }
 

@@ -49,9 +49,7 @@ std::vector<BenchJob> jobs_of(const BenchPlan& plan) {
   std::vector<BenchJob> jobs;
   for (const BenchSequence& sequence : plan.sequences) {
     for (const BenchConfiguration& configuration : plan.configurations) {
-      BenchJob job;
-      job.sequence = sequence;
-      job.configuration = configuration;
+      BenchJob job{sequence, configuration};
       if (configuration.elevation_correction_deg) {
         job.sequence.elevation_correction_deg = configuration.elevation_correction_deg;
       }

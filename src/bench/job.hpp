@@ -16,10 +16,10 @@ namespace rilo {
 struct BenchJob {
   BenchSequence sequence;
   BenchConfiguration configuration;
-  std::size_t repeat = 1;      ///< counted from 1
-  std::size_t repeats = 1;     ///< of this cell
-  nlohmann::json description;  ///< all that the result depends on; see describe()
-  std::string key;             ///< of the description; names the cell's files
+  std::size_t repeat = 1;           ///< counted from 1
+  std::size_t repeats = 1;          ///< of this cell
+  nlohmann::json description = {};  ///< all that the result depends on; see describe()
+  std::string key = {};             ///< of the description; names the cell's files
 
   /// "urban00 × full", with the repeat where there are several.
   std::string name() const;

@@ -7,7 +7,7 @@
 #include "io/atomic_file.hpp"
 #include "io/file_bytes.hpp"
 #include "results/output_check.hpp"
-#include "rilo/io/io_error.hpp"
+#include "results/run_outputs.hpp"
 
 namespace rilo {
 
@@ -19,14 +19,8 @@ constexpr const char* kPairedCsv = "paired.csv";
 constexpr const char* kResultsMd = "results.md";
 
 std::vector<TitledTable> paper_tables(const BenchOutput& output, MeasuredColumns measured) {
-  switch (output.tables) {
-    case PaperTables::kKitti:
-      return kitti_tables(output.bench.cells, measured);
-    case PaperTables::kM2dgr:
-      return m2dgr_tables(output.bench.cells);
-    case PaperTables::kNone:
-      break;
-  }
+  if (output.tables == PaperTables::kKitti) return kitti_tables(output.bench.cells, measured);
+  if (output.tables == PaperTables::kM2dgr) return m2dgr_tables(output.bench.cells);
   return {};
 }
 
@@ -59,8 +53,7 @@ std::string bench_markdown(const BenchOutput& output, MeasuredColumns measured) 
 
 void check_results_folder(const std::filesystem::path& folder) {
   const std::filesystem::path store = folder / kStoreName;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(folder / kCells, ignored)) return;
+  if (detail::is_folder(folder / kCells)) return;
   if (detail::is_file(store)) {  // the cells were deleted, so that all are run again
     check_replaced(store, "TABLE cells", "store of a benchmark", "--out");
     return;
@@ -75,7 +68,7 @@ void check_results_folder(const std::filesystem::path& folder) {
 }
 
 void write_results(const std::filesystem::path& folder, const BenchOutput& output, const BenchStore& store) {
-  try {
+  guard_writing([&] {
     write_atomically(folder / kResultsJson, json_text(results_json(output.bench)));
     write_atomically(folder / kResultsCsv, bench_csv(output.bench.cells).csv());
     const TextTable paired = paired_csv(output.bench.cells);
@@ -86,9 +79,7 @@ void write_results(const std::filesystem::path& folder, const BenchOutput& outpu
     }
     write_atomically(folder / kResultsMd, bench_markdown(output));
     write_store(folder / kStoreName, store);
-  } catch (const IoError& error) {
-    throw RunError(RunErrorKind::kCannotWrite, error.what());
-  }
+  });
 }
 
 }  // namespace rilo

@@ -20,7 +20,7 @@ struct BenchOutput {
   std::filesystem::path baseline_file;
 };
 
-/// @throws IoError of a baseline that is none.
+/// Without a baseline.
 BenchOutput bench_output(const BenchStore& store);
 
 /// All tables, those of the paper and of the baseline included.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/paper_figures.hpp"
+#include "io/file_bytes.hpp"
 
 namespace rilo {
 
@@ -182,25 +183,17 @@ bool in_table_3(const std::string& name) {
                      [&](const std::string& known) { return plain_name(known) == plain_name(name); });
 }
 
-BenchJob job_of(const BenchSequence& sequence, const BenchConfiguration& configuration) {
-  BenchJob job;
-  job.sequence = sequence;
-  job.configuration = configuration;
-  return job;
-}
-
 }  // namespace
 
 std::vector<BenchJob> kitti_jobs(const fs::path& root, const BenchConfiguration& configuration) {
   std::vector<BenchJob> jobs;
   for (const std::string& name : kitti_sequences()) {
-    std::error_code ignored;
     BenchSequence sequence;
     sequence.name = name;
     sequence.path = root / "sequences" / name;
-    if (!fs::is_directory(sequence.path / "velodyne", ignored)) continue;
+    if (!detail::is_folder(sequence.path / "velodyne")) continue;
     for (const double degrees : {0.0, kKittiElevationDeg}) {
-      BenchJob job = job_of(sequence, configuration);
+      BenchJob job{sequence, configuration};
       job.sequence.elevation_correction_deg = degrees;
       job.configuration.name = fmt::format("{}, {}°", configuration.name, degrees);
       job.configuration.config.elevation.enabled = false;
@@ -208,7 +201,7 @@ std::vector<BenchJob> kitti_jobs(const fs::path& root, const BenchConfiguration&
       jobs.push_back(job);
     }
     if (!configuration.config.elevation.enabled) continue;
-    BenchJob job = job_of(sequence, configuration);
+    BenchJob job{sequence, configuration};
     job.sequence.elevation_correction_deg = 0;
     job.configuration.name = configuration.name + ", own estimate";
     jobs.push_back(job);
@@ -242,10 +235,9 @@ std::vector<TitledTable> kitti_tables(const std::vector<BenchCell>& cells, Measu
 std::vector<BenchJob> m2dgr_jobs(const fs::path& root, const BenchConfiguration& configuration) {
   std::vector<BenchJob> jobs;
   for (const auto& [name, path] : recordings_in(root)) {
-    std::error_code ignored;
     const fs::path truth = root / (name + ".txt");
-    if (!fs::is_regular_file(truth, ignored) && !in_table_3(name)) continue;
-    BenchJob job = job_of({}, configuration);
+    if (!detail::is_file(truth) && !in_table_3(name)) continue;
+    BenchJob job{{}, configuration};
     job.sequence.name = name;
     job.sequence.path = path;
     job.sequence.ground_truth = truth;

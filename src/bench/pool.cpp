@@ -22,6 +22,7 @@
 
 #include "console/failure.hpp"
 #include "console/interrupt.hpp"
+#include "results/run_outputs.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
@@ -164,18 +165,10 @@ class Pool {
 
 CellRecord failed_record(const BenchJob& job, const CellFolder& folder, std::size_t attempts, const std::string& error,
                          ExitCode code) {
-  BenchCell cell;
-  cell.sequence = job.sequence.name;
-  cell.configuration = job.configuration.name;
-  cell.settings = job.configuration.settings;
-  cell.error = error;
-  cell.error_code = code;
+  const BenchConfiguration& configuration = job.configuration;
+  const BenchCell cell{job.sequence.name, configuration.name, false, configuration.settings, {}, {}, error, code};
   CellRecord record{{cell}, attempts, folder.log_name(job), host_name()};
-  try {
-    folder.write(job, record);
-  } catch (const IoError& write_error) {
-    throw RunError(RunErrorKind::kCannotWrite, write_error.what());
-  }
+  guard_writing([&] { folder.write(job, record); });
   return record;
 }
 

@@ -7,6 +7,7 @@
 
 #include "bench/figures.hpp"
 #include "console/text.hpp"
+#include "io/file_bytes.hpp"
 #include "results/pose_files.hpp"
 #include "results/run_report.hpp"
 #include "results/run_truth.hpp"
@@ -33,7 +34,7 @@ std::string with_sentences(const std::vector<std::string>& sentences, const std:
 
 /// The truth that the user gave, for one run. For a data folder, the truth in it.
 void evaluate_given(const fs::path& truth, const PoseFlags& flags, RunRecord& run) {
-  if (!fs::is_directory(truth)) {
+  if (!detail::is_folder(truth)) {
     evaluate_run(run, GivenPoses{truth, flags.camera_frame, flags.max_gap_s});
     return;
   }
@@ -106,7 +107,7 @@ PairedPeer on_sweeps_of(const RunRecord& run, const ReportSequence& sequence, co
   const PosesOfSweeps poses = poses_of_sweeps(given, run);
   if (run.truth) {
     std::optional<GivenPoses> file;
-    if (!sequence.truth.empty() && !fs::is_directory(sequence.truth)) {
+    if (!sequence.truth.empty() && !detail::is_folder(sequence.truth)) {
       file = GivenPoses{sequence.truth, given.camera_frame, given.max_gap_s};
     }
     TruthMatch match = match_truth(*truth_of_sweeps(run, file), poses);

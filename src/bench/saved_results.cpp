@@ -90,15 +90,13 @@ std::string bench_notice(const Json& json, std::size_t failed) {
 }  // namespace
 
 bool is_saved_results(const fs::path& path) {
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored)) return detail::is_file(path / kResults) || detail::is_file(path / kStoreName);
+  if (detail::is_folder(path)) return detail::is_file(path / kResults) || detail::is_file(path / kStoreName);
   return detail::is_file(path) && (path.extension() == ".json" || is_store(path));
 }
 
 Json read_saved_results(const fs::path& path) {
-  std::error_code ignored;
   fs::path file = path;
-  if (fs::is_directory(path, ignored)) file = path / (detail::is_file(path / kResults) ? kResults : kStoreName);
+  if (detail::is_folder(path)) file = path / (detail::is_file(path / kResults) ? kResults : kStoreName);
   return is_store(file) ? results_json(bench_output(read_store(file)).bench) : read_json_results(file);
 }
 
@@ -107,7 +105,7 @@ ExperimentReport read_saved_bench(const fs::path& path) {
   if (json["cells"].empty()) {
     throw IoError({path, "", "a benchmark without a finished cell", "results of at least one", "Run rilo bench again"});
   }
-  const fs::path folder = fs::is_directory(path) ? path : path.parent_path();
+  const fs::path folder = detail::is_folder(path) ? path : path.parent_path();
   ExperimentReport report;
   report.title = valid_utf8(last_name(folder.empty() ? "." : folder));
   report.figures = report_figures();

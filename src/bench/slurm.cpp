@@ -15,7 +15,6 @@
 #include "console/text.hpp"
 #include "io/atomic_file.hpp"
 #include "results/run_outputs.hpp"
-#include "rilo/io/io_error.hpp"
 
 namespace rilo {
 
@@ -104,15 +103,13 @@ class SlurmRun {
   void write_inputs() const {
     std::string keys;
     for (const BenchJob& job : all_) keys += job.key + "\n";
-    try {
+    guard_writing([&] {
       create_folder(folder_of(order_.out));
       write_atomically(keys_file(order_.out), keys);
       for (std::size_t offset = 0; offset < all_.size(); offset += kLargestArray) {
         write_atomically(script_file(offset), script_for(order_, offset));
       }
-    } catch (const IoError& error) {
-      throw RunError(RunErrorKind::kCannotWrite, error.what());
-    }
+    });
   }
 
   fs::path script_file(std::size_t offset) const { return folder_of(order_.out) / fmt::format("cells-{}.sh", offset); }

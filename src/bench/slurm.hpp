@@ -26,7 +26,7 @@ void run_on_slurm(const std::vector<BenchJob>& open, const std::vector<BenchJob>
                   const SlurmOrder& order, const BenchEvents& events);
 
 /// In a task: that the cell is the one that was submitted. Otherwise `folder` has the rejection as the result of that
-/// one, for the one who waits. @throws RunError, kBadData,
+/// one, for the one who waits. @throws RunError, kBadData
 void check_submitted(const std::filesystem::path& out, std::size_t number, const BenchJob& job,
                      const CellFolder& folder);
 

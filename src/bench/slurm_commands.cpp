@@ -35,9 +35,7 @@ constexpr int kCannotStart = 127;
 }
 
 std::string trimmed_line(const std::string& text) {
-  std::string line = text.substr(0, text.find('\n'));
-  while (!line.empty() && (line.back() == ' ' || line.back() == '\r')) line.pop_back();
-  return line;
+  return std::string(detail::trimmed(detail::LineScanner(text).next().value_or("")));
 }
 
 // What follows "key=" up to the next blank.

@@ -3,11 +3,11 @@
 #include <array>
 #include <memory>
 #include <sqlite3.h>
-#include <system_error>
 
 #include "bench/cell_file.hpp"
 #include "console/text.hpp"
 #include "io/atomic_file.hpp"
+#include "io/file_bytes.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
@@ -155,9 +155,8 @@ void write_store(const fs::path& target, const BenchStore& store) {
 }
 
 BenchStore read_store(const fs::path& place) {
-  std::error_code ignored;
-  const fs::path target = fs::is_directory(place, ignored) ? place / kStoreName : place;
-  if (!fs::is_regular_file(target, ignored)) throw IoError({target, "", "no file of this name", kExpectedStore, ""});
+  const fs::path target = detail::is_folder(place) ? place / kStoreName : place;
+  if (!detail::is_file(target)) throw IoError({target, "", "no file of this name", kExpectedStore, ""});
   StoreFile file(target, true);
   BenchStore store;
   try {

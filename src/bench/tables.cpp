@@ -1,7 +1,6 @@
 #include "bench/tables.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -20,13 +19,13 @@ const std::vector<std::string> kEffort = {
     "ms_mean",         "ms_median",          "ms_p95",          "ms_p99",     "ms_max",
     "mean_iterations", "selection_rate_pct", "coarse_rate_pct", "peak_rss_mb"};
 
-// Of `keys` those that are wanted.
-std::vector<std::string> wanted(const std::vector<std::string>& keys, MeasuredColumns measured) {
-  std::vector<std::string> result;
-  std::copy_if(keys.begin(), keys.end(), std::back_inserter(result), [&](const std::string& key) {
-    return measured == MeasuredColumns::kWith || !bench_figure(key).measured;
-  });
-  return result;
+bool is_shown(const BenchFigure& figure, MeasuredColumns measured) {
+  return measured == MeasuredColumns::kWith || !figure.measured;
+}
+
+std::vector<std::string> wanted(std::vector<std::string> keys, MeasuredColumns measured) {
+  std::erase_if(keys, [&](const std::string& key) { return !is_shown(bench_figure(key), measured); });
+  return keys;
 }
 
 void add_titles(TextTable& table, const std::vector<std::string>& keys) {
@@ -221,16 +220,15 @@ TitledTable baseline_table(const std::vector<BenchCell>& cells, const nlohmann::
 TextTable bench_csv(const std::vector<BenchCell>& cells, MeasuredColumns measured) {
   TextTable table;
   table.header = {"row", "sequence", "configuration", "kind"};
-  const auto shown_here = [&](const BenchFigure& f) { return measured == MeasuredColumns::kWith || !f.measured; };
   for (const BenchFigure& figure : bench_figures()) {
-    if (shown_here(figure)) table.header.emplace_back(figure.key);
+    if (is_shown(figure, measured)) table.header.emplace_back(figure.key);
   }
   table.header.insert(table.header.end(), {"frames", "status", "pose_instant", "truth_instant", "point_times",
                                            "elevation_correction_deg", "error"});
   for (const BenchCell& cell : cells) {
     std::vector<std::string> row = {"cell", cell.sequence, cell.configuration, cell.peer ? "peer" : "run"};
     for (const BenchFigure& figure : bench_figures()) {
-      if (shown_here(figure)) row.push_back(exact(value_of(cell, figure)));
+      if (is_shown(figure, measured)) row.push_back(exact(value_of(cell, figure)));
     }
     row.push_back(or_dash(cell.metrics.frames));
     row.push_back(statuses(cell.metrics));
@@ -248,7 +246,7 @@ TextTable bench_csv(const std::vector<BenchCell>& cells, MeasuredColumns measure
                           exact(summary.kitti.pooled_r_rel_deg_100m)});
     std::vector<std::string> row = {"mean", "", summary.configuration, kind};
     for (std::size_t i = 0; i < summary.means.size(); ++i) {
-      if (shown_here(bench_figures()[i])) row.push_back(exact(summary.means[i]));
+      if (is_shown(bench_figures()[i], measured)) row.push_back(exact(summary.means[i]));
     }
     table.rows.push_back(row);
   }

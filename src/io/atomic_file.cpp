@@ -34,10 +34,14 @@ std::string remedy_for(int error_number) {
 
 fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
 
-// A link is written through: the file that it points to is replaced, the link stays.
+// A link is written through: the file that it points to is replaced, the link stays. What cannot even be looked at, as
+// a name that is too long, is refused here: a file without a name would find it out at the end only.
 fs::path resolved(const fs::path& target) {
   std::error_code error;
   const fs::file_status status = fs::status(target, error);
+  if (status.type() == fs::file_type::none) {
+    throw IoError({target, "", "cannot be written: " + error.message(), "", remedy_for(error.value())});
+  }
   if (fs::exists(status)) {
     if (!fs::is_regular_file(status)) {
       throw IoError({target, "", fs::is_directory(status) ? "it is a folder" : "it is not a regular file",
@@ -55,8 +59,9 @@ fs::path resolved(const fs::path& target) {
 
 fs::path temporary_name(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
-  return target.parent_path() /
-         fmt::format(".{}.{}-{}{}", target.filename().string(), ::getpid(), counter++, kTemporaryEnd);
+  constexpr std::size_t kMostOfName = 220;  // with what is added, of the 255 bytes of a name
+  return target.parent_path() / fmt::format(".{}.{}-{}{}", target.filename().string().substr(0, kMostOfName),
+                                            ::getpid(), counter++, kTemporaryEnd);
 }
 
 std::string_view digits_off(std::string_view& text) {

@@ -1,7 +1,6 @@
 // Decimal seconds and int64 ns, exactly.
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <limits>
 
 #include <fmt/format.h>
@@ -44,7 +43,7 @@ std::optional<Decimal> take_apart(std::string_view text) {
   if (result.digits.empty()) return std::nullopt;
   if (exponent_at < text.size()) {
     const auto exponent = detail::parse_integer(text.substr(exponent_at + 1));
-    if (!exponent || std::abs(*exponent) > kLargestExponent) return std::nullopt;
+    if (!exponent || *exponent < -kLargestExponent || *exponent > kLargestExponent) return std::nullopt;
     result.decimals -= *exponent;
   }
   return result;

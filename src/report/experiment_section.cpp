@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "experiment_table.hpp"
@@ -19,12 +17,7 @@ Json or_null(const std::optional<double>& value) { return value ? Json(*value) :
 std::vector<ExperimentFigure> figures_there(const ExperimentReport& experiment) {
   std::vector<ExperimentFigure> figures;
   for (const ExperimentFigure& figure : experiment.figures) {
-    const ExperimentTable table(experiment, figure.key);
-    bool any = false;
-    for (std::size_t s = 0; s < table.sequences().size(); ++s) {
-      for (std::size_t k = 0; k < table.configurations().size(); ++k) any = any || table.at(s, k);
-    }
-    if (any) figures.push_back(figure);
+    if (ExperimentTable(experiment, figure.key).any()) figures.push_back(figure);
   }
   return figures;
 }
@@ -58,17 +51,16 @@ Json experiment_data(const ExperimentReport& experiment, const std::vector<Exper
 
 std::string means_panel(const ExperimentReport& experiment, const std::vector<ExperimentFigure>& figures) {
   std::vector<FigureRow> rows;
+  bool any = false;
   for (const ExperimentFigure& figure : figures) {
     const ExperimentTable table(experiment, figure.key);
     for (std::size_t k = 0; k < table.configurations().size(); ++k) {
       if (rows.size() <= k) rows.push_back({escaped(table.configurations()[k]), {}, ""});
       rows[k].values.push_back(table.mean(k));
+      any = any || table.mean(k);
     }
   }
   const ExperimentTable first(experiment, figures.front().key);
-  const bool any = std::any_of(rows.begin(), rows.end(), [](const FigureRow& row) {
-    return std::any_of(row.values.begin(), row.values.end(), [](const auto& value) { return value.has_value(); });
-  });
   if (!any) {
     return "<section class=\"panel full\"><h3>Mean of the sequences</h3><p>None: no sequence has figures of every "
            "configuration.</p></section>\n";

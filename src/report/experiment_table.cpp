@@ -36,9 +36,10 @@ void ExperimentTable::find_common() {
   for (const auto& row : values_) {
     for (std::size_t k = 0; k < row.size(); ++k) has[k] = has[k] || row[k];
   }
+  any_ = std::find(has.begin(), has.end(), true) != has.end();
   std::vector<double> sums(configurations_.size(), 0.0);
   for (const auto& row : values_) {
-    bool complete = std::find(has.begin(), has.end(), true) != has.end();
+    bool complete = any_;
     for (std::size_t k = 0; k < row.size(); ++k) complete = complete && (row[k] || !has[k]);
     if (!complete) continue;
     ++common_;

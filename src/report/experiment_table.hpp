@@ -23,6 +23,9 @@ class ExperimentTable {
     return values_[sequence][configuration];
   }
 
+  /// Whether any cell has the figure.
+  bool any() const { return any_; }
+
   /// Sequences for which every configuration has the figure, of those that have it at all: means over others would
   /// not be comparable.
   std::size_t common_sequences() const { return common_; }
@@ -37,6 +40,7 @@ class ExperimentTable {
   std::vector<std::string> configurations_;
   std::vector<std::vector<std::optional<double>>> values_;
   std::vector<std::optional<double>> means_;
+  bool any_ = false;
   std::size_t common_ = 0;
 };
 

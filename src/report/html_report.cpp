@@ -21,15 +21,15 @@ void check_poses(const std::vector<SE3>& poses, const char* name) {
   }
 }
 
+// None, or one a pose.
+void check_count(std::size_t count, std::size_t poses, const char* one, const char* several) {
+  if (count == 0 || count == poses) return;
+  throw std::invalid_argument(fmt::format("a report needs one {} a pose: {} {}, {} poses", one, count, several, poses));
+}
+
 void check(const RunReport& run) {
-  if (!run.sweeps.empty() && run.sweeps.size() != run.estimate.size()) {
-    throw std::invalid_argument("a report needs one line of statistics a pose: " + std::to_string(run.sweeps.size()) +
-                                " lines, " + std::to_string(run.estimate.size()) + " poses");
-  }
-  if (!run.numbers.empty() && run.numbers.size() != run.estimate.size()) {
-    throw std::invalid_argument("a report needs one number a pose: " + std::to_string(run.numbers.size()) +
-                                " numbers, " + std::to_string(run.estimate.size()) + " poses");
-  }
+  check_count(run.sweeps.size(), run.estimate.size(), "line of statistics", "lines");
+  check_count(run.numbers.size(), run.estimate.size(), "number", "numbers");
   check_poses(run.estimate, "estimate");
   check_poses(run.truth, "truth");
 }

@@ -1,5 +1,6 @@
 #include "html_text.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,27 +8,15 @@
 namespace rilo {
 
 std::string escaped(std::string_view text) {
+  constexpr std::string_view kSpecial = "&<>\"'";
+  constexpr std::array<const char*, kSpecial.size()> kEntities{"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
   std::string result;
   result.reserve(text.size());
   for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20U && c != '\n' ? ' ' : c;
+    if (const std::size_t k = kSpecial.find(c); k != std::string_view::npos) {
+      result += kEntities[k];
+    } else {
+      result += static_cast<unsigned char>(c) < 0x20U && c != '\n' ? ' ' : c;
     }
   }
   return result;

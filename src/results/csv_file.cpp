@@ -1,48 +1,45 @@
 #include "results/csv_file.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "io/file_bytes.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
 
 namespace {
 
-std::vector<std::string> split_cells(std::string line) {
-  if (line.ends_with('\r')) line.pop_back();
+std::vector<std::string> split_cells(std::string_view line) {
   std::vector<std::string> cells;
-  std::size_t from = 0;
-  for (std::size_t comma = line.find(','); comma != std::string::npos; comma = line.find(',', from)) {
-    cells.push_back(line.substr(from, comma - from));
-    from = comma + 1;
+  for (std::size_t comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
+    cells.emplace_back(line.substr(0, comma));
+    line.remove_prefix(comma + 1);
   }
-  cells.push_back(line.substr(from));
+  cells.emplace_back(line);
   return cells;
+}
+
+// Empty for what is no file; one that may not be read is refused.
+detail::FileBytes bytes_of(const std::filesystem::path& file) {
+  return detail::is_file(file) ? detail::read_file(file) : detail::FileBytes{file, nullptr, 0};
 }
 
 }  // namespace
 
-CsvFile::CsvFile(std::filesystem::path file, const CsvKind& kind)
-    : file_(std::move(file)), kind_(kind), stream_(file_, std::ios::binary) {
-  std::string text;
-  if (!detail::is_file(file_) || !stream_ || !std::getline(stream_, text)) {
-    throw IoError({file_, "", "no file that can be read", kind_.expected, kind_.missing_remedy});
-  }
-  header_ = split_cells(text);
+CsvFile::CsvFile(const std::filesystem::path& file, const CsvKind& kind)
+    : kind_(kind), bytes_(bytes_of(file)), lines_(bytes_.view()) {
+  const auto header = lines_.next();
+  if (!header) throw IoError({bytes_.path, "", "no file that can be read", kind_.expected, kind_.missing_remedy});
+  header_ = split_cells(*header);
 }
 
 bool CsvFile::next() {
-  std::string text;
-  while (std::getline(stream_, text)) {
-    ++number_;
-    if (text.empty() || text == "\r") continue;
-    cells_ = split_cells(text);
+  while (const auto line = lines_.next()) {
+    if (line->empty()) continue;
+    cells_ = split_cells(*line);
     if (cells_.size() == header_.size()) return true;
-    throw IoError({file_, fmt::format("line {}", number_), fmt::format("{} values", cells_.size()),
+    throw IoError({bytes_.path, detail::at_line(lines_.number()), fmt::format("{} values", cells_.size()),
                    fmt::format("{}, as the header has names", header_.size()), kind_.remedy});
   }
   return false;
@@ -54,7 +51,7 @@ bool CsvFile::has(std::string_view column) const {
 
 void CsvFile::need(std::string_view column) const {
   if (has(column)) return;
-  throw IoError({file_, "line 1", fmt::format("no column {}", column), kind_.expected, kind_.remedy});
+  throw IoError({bytes_.path, "line 1", fmt::format("no column {}", column), kind_.expected, kind_.remedy});
 }
 
 const std::string& CsvFile::cell(std::string_view column) const {
@@ -63,8 +60,8 @@ const std::string& CsvFile::cell(std::string_view column) const {
 }
 
 void CsvFile::refuse(std::string_view column, const std::string& expected) const {
-  throw IoError({file_, fmt::format("line {}, column {}", number_, column), fmt::format("\"{}\"", cell(column)),
-                 expected, kind_.remedy});
+  throw IoError({bytes_.path, fmt::format("line {}, column {}", lines_.number(), column),
+                 fmt::format("\"{}\"", cell(column)), expected, kind_.remedy});
 }
 
 }  // namespace rilo

@@ -1,13 +1,12 @@
 // Comma separated values with a header, read by the names of the columns.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/file_bytes.hpp"
 #include "io/text.hpp"
 
 namespace rilo {
@@ -23,7 +22,7 @@ struct CsvKind {
 class CsvFile {
  public:
   /// @throws IoError: no file, or an empty one.
-  CsvFile(std::filesystem::path file, const CsvKind& kind);
+  CsvFile(const std::filesystem::path& file, const CsvKind& kind);
 
   /// To the next line that is not empty; false at the end. @throws IoError: not as many cells as the header has.
   bool next();
@@ -46,12 +45,11 @@ class CsvFile {
   [[noreturn]] void refuse(std::string_view column, const std::string& expected) const;
 
  private:
-  std::filesystem::path file_;
   CsvKind kind_;
-  std::ifstream stream_;
+  detail::FileBytes bytes_;
+  detail::LineScanner lines_;
   std::vector<std::string> header_;
   std::vector<std::string> cells_;
-  std::size_t number_ = 1;
 };
 
 }  // namespace rilo

@@ -10,6 +10,7 @@
 #include "io/file_bytes.hpp"
 #include "io/folder_files.hpp"
 #include "io/folders/scan_listing.hpp"
+#include "results/run_outputs.hpp"
 #include "rilo/session/session.hpp"
 
 namespace rilo {
@@ -105,11 +106,9 @@ void check_apart(const fs::path& folder, const fs::path& data) {
 
 void check_replaced(const fs::path& file, const std::string& mark, const std::string& what, const std::string& option) {
   if (!detail::is_file(file)) return;  // nothing there, or no regular file, which writing refuses
-  std::ifstream stream(file, std::ios::binary);
-  std::string head(kHead, '\0');
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(stream.gcount()));
-  if (!head.empty() && head.find(mark) == std::string::npos) {
+  detail::FileBytes head;
+  guard_writing([&] { head = detail::read_file(file, kHead); });  // one that may not be read is not replaced either
+  if (head.size > 0 && head.view().find(mark) == std::string_view::npos) {
     refuse(file, "would be replaced, and is no " + what, "choose another " + option + ", or move the file");
   }
 }

@@ -123,7 +123,7 @@ PairedPoses paired_automatically(const PoseFile& truth, const PoseFile& estimate
 }  // namespace
 
 PoseFile read_poses(const std::filesystem::path& file) {
-  const std::size_t count = std::filesystem::is_regular_file(file) ? words_of_first_line(file) : kKittiNumbers;
+  const std::size_t count = detail::is_file(file) ? words_of_first_line(file) : kKittiNumbers;
   if (count == kTumNumbers) return {file, read_tum(file), true, {}, {}};
   if (count == kKittiNumbers) return without_stamps(file, read_kitti_poses(file));
   if (count == 0) throw IoError({file, "", "no pose", "a pose file, KITTI or TUM form", "Check the path"});
@@ -132,7 +132,7 @@ PoseFile read_poses(const std::filesystem::path& file) {
 }
 
 PoseFile read_truth(const std::filesystem::path& path, PoseInstant instant) {
-  if (!std::filesystem::is_directory(path)) return read_poses(path);
+  if (!detail::is_folder(path)) return read_poses(path);
   auto truth = read_ground_truth(path, instant);
   if (truth) return truth_of_data(path, std::move(*truth), instant);
   throw IoError(

@@ -9,27 +9,17 @@
 
 #include "console/text.hpp"
 #include "console/version.hpp"
-#include "evaluation/percentile.hpp"
 #include "geometry/degrees.hpp"
+#include "report/figures.hpp"
 
 namespace rilo {
 
 namespace {
 
-constexpr double kP95 = 0.95;
-constexpr double kP99 = 0.99;
-
 TimingMetrics timing(const RunRecord& run) {
-  std::vector<double> ms;
-  double sum = 0.0;
-  for (const SweepResult& result : run.results) {
-    ms.push_back(result.stats.times.total_ms);
-    sum += ms.back();
-  }
-  if (ms.empty()) return {};
-  std::sort(ms.begin(), ms.end());
-  return {sum / static_cast<double>(ms.size()), percentile(ms, 0.5), percentile(ms, kP95), percentile(ms, kP99),
-          ms.back()};
+  if (run.results.empty()) return {};
+  const TimingFigures t = timing_of(run.results);
+  return {t.mean_ms, t.median_ms, t.p95_ms, t.p99_ms, t.max_ms};
 }
 
 StageMetrics stage_means(const RunRecord& run) {

@@ -6,6 +6,7 @@
 
 #include "console/text.hpp"
 #include "io/atomic_file.hpp"
+#include "io/file_bytes.hpp"
 #include "report/html_report.hpp"
 #include "results/metrics_json.hpp"
 #include "results/run_report.hpp"
@@ -98,10 +99,20 @@ void write_folder(const OutputRequest& flags, const RunRecord& run, const RunMet
 
 }  // namespace
 
+void guard_writing(const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const IoError& error) {
+    throw RunError(RunErrorKind::kCannotWrite, error.what());
+  } catch (const fs::filesystem_error& error) {
+    throw RunError(RunErrorKind::kCannotWrite, error.what());
+  }
+}
+
 void create_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (fs::is_directory(folder)) return;
+  if (detail::is_folder(folder)) return;
   const std::string reason = error ? error.message() : "it is not a folder";
   throw RunError(RunErrorKind::kCannotWrite,
                  folder.string() + ": cannot be created (" + reason + "); choose another --out");
@@ -111,26 +122,20 @@ void prepare_outputs(const OutputRequest& flags) {
   if (!flags.map.empty() && !flags.map.ends_with(".ply") && !flags.map.ends_with(".pcd")) {
     throw RunError(RunErrorKind::kUsage, "--map " + flags.map + ": expected a file that ends in .ply or .pcd");
   }
-  try {
+  guard_writing([&] {
     if (!flags.out.empty()) {
       create_folder(flags.out);
       const AtomicFile probe(fs::path(flags.out) / "metrics.json");
     }
     if (!flags.map.empty()) const MapWriter probe(flags.map);
-  } catch (const IoError& error) {
-    throw RunError(RunErrorKind::kCannotWrite, error.what());
-  }
+  });
 }
 
 void write_outputs(const OutputRequest& flags, const RunRecord& run, const RunMetrics& metrics) {
-  try {
+  guard_writing([&] {
     if (!flags.out.empty()) write_folder(flags, run, metrics);
     if (!flags.map.empty()) write_map(flags.map, run.map);
-  } catch (const IoError& error) {
-    throw RunError(RunErrorKind::kCannotWrite, error.what());
-  } catch (const fs::filesystem_error& error) {
-    throw RunError(RunErrorKind::kCannotWrite, error.what());
-  }
+  });
 }
 
 }  // namespace rilo

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "results/metrics.hpp"
 #include "results/run_record.hpp"
 #include "results/run_request.hpp"
 
 namespace rilo {
+
+/// Calls `write`. @throws RunError, kCannotWrite, for what it cannot write or remove.
+void guard_writing(const std::function<void()>& write);
 
 /// With all folders above it. @throws RunError, kCannotWrite
 void create_folder(const std::filesystem::path& folder);

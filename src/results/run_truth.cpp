@@ -93,9 +93,7 @@ void evaluate_run(RunRecord& run, const std::optional<GivenPoses>& given) {
 void evaluate_run(RunRecord& run) {
   try {
     evaluate_run(run, std::nullopt);
-  } catch (const IoError& error) {
-    run.truth_error = error.what();
-  } catch (const RunError& error) {
+  } catch (const std::runtime_error& error) {  // IoError, RunError
     run.truth_error = error.what();
   } catch (const std::invalid_argument& error) {
     run.truth_error = error.what();

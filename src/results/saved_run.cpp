@@ -57,7 +57,7 @@ void fill_record(const RunMetrics& metrics, RunRecord& run) {
   run.pose_instant = parse_pose_instant(metrics.pose_instant).value_or(run.pose_instant);
 }
 
-/// Median step of the stamps; the default of a source when there is none.
+/// By the stamps; the default of a source when there is none.
 double period_of(const RunRecord& run) {
   std::vector<std::int64_t> stamps;
   for (const SweepResult& result : run.results) stamps.push_back(result.stamp_ns);

@@ -37,18 +37,16 @@ float instant_s(const std::vector<float>& times_s, PoseInstant instant) {
 }
 
 SweepTimes sweep_times(const std::filesystem::path& data, PoseInstant instant) {
-  SweepTimes times;
   try {
     const detail::ScanListing listing = detail::list_folder(data, {});
     if (listing.info.stamps_assumed || !std::is_sorted(listing.stamps_ns.begin(), listing.stamps_ns.end())) return {};
-    times.stamps_ns = listing.stamps_ns;
     // As the data say; points that are taken as compensated; those of which a run or an option says that they are not.
-    times.offsets_ns = {offset_in_data(data, instant, listing.stamps_ns.front()), 0,
-                        detail::nanoseconds(listing.info.period_s / 2)};
+    return {
+        listing.stamps_ns,
+        {offset_in_data(data, instant, listing.stamps_ns.front()), 0, detail::nanoseconds(listing.info.period_s / 2)}};
   } catch (const IoError&) {
     return {};  // a recording, or nothing but the poses
   }
-  return times;
 }
 
 }  // namespace rilo

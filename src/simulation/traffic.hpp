@@ -39,7 +39,7 @@ class Traffic {
   struct Car {
     CarBody body;
     bool oncoming = false;
-    double lead = 0;  // seconds ahead of the vehicle; of oncoming cars metres along the course
+    double lead = 0;  // seconds ahead of the vehicle; of oncoming cars the share of the lap where they are at 0
   };
   std::vector<Car> cars_;
 };

@@ -6,6 +6,7 @@
 
 #include "bench/cell_file.hpp"
 #include "bench/content_hash.hpp"
+#include "bench/output.hpp"
 #include "bench/slurm_commands.hpp"
 #include "bench/store.hpp"
 #include "io/io_test_util.hpp"
@@ -70,6 +71,20 @@ TEST(ContentHash, DataChangeWhenTheirFilesDo) {
   EXPECT_NE(other_sweep, other_times);
   folder.write("drive/velodyne/000001.bin", "sweep");
   EXPECT_NE(now(), other_sweep);
+}
+
+TEST(ContentHash, DataChangeWithWhatIsReadOfThemOrBesideThem) {
+  const TempDir folder;
+  folder.write("day/drive/notes.txt", "");
+  std::string before = hash_of_data(folder / "day/drive", {});
+  // Of any case, packed, and what lies beside: a rosbag2's packed file; calibrations, stamps and metadata.
+  for (const char* name : {"day/drive/0.PCD", "day/drive/bag.db3.zstd", "day/calib_imu_to_velo.txt", "day/times.txt",
+                           "day/timestamps.txt", "day/drive.json"}) {
+    folder.write(name, "x");
+    const std::string after = hash_of_data(folder / "day/drive", {});
+    EXPECT_NE(after, before) << name;
+    before = after;
+  }
 }
 
 TEST(BenchKey, DependsOnAllThatTheResultDependsOn) {
@@ -151,6 +166,18 @@ TEST(BenchStore, RefusesWhatIsNone) {
   test::expect_io_error([&] { read_store(text); }, {"text", "SQLite3"});
   const auto empty = folder.write("empty", "");
   test::expect_io_error([&] { read_store(empty); }, {"another kind"});
+}
+
+TEST(BenchOutput, WhatCannotBeReplacedIsSaid) {
+  const TempDir folder;
+  folder.write("paired.csv/in.the.way", "");
+  const BenchStore store;
+  try {
+    write_results(folder.path(), bench_output(store), store);
+    FAIL() << "written";
+  } catch (const RunError& error) {
+    EXPECT_EQ(error.kind(), RunErrorKind::kCannotWrite);
+  }
 }
 
 TEST(BenchRepeats, TimesAreMediansAndFindingsMustAgree) {

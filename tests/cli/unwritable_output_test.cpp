@@ -20,6 +20,9 @@ TEST(UnwritableOutput, IsSaidBeforeTheRun) {
   EXPECT_EQ(slurp(file), "mine");
   rilo_fails(4, {"run", drive, "--out", "/proc/rilo-results"}, {"/proc/rilo-results"});
   rilo_fails(4, {"run", drive, "--map", "/proc/map.ply"}, {"/proc/map.ply"});
+  const std::string too_long(300, 'n');
+  rilo_fails(4, {"run", drive, "--out", folder / too_long}, {"nnn", "File name too long"});
+  rilo_fails(4, {"run", drive, "--map", folder / (too_long + ".ply")}, {"nnn", "File name too long"});
   rilo_fails(2, {"run", drive, "--map", folder / "map.xyz"}, {"map.xyz", ".ply", ".pcd"});
   rilo_fails(3, {"run", drive, "--out", folder / "good"}, {"000000.bin"});
 }

@@ -85,6 +85,17 @@ TEST(AtomicFileTest, SaysWhatIsWrong) {
   expect_io_error([&] { write_atomically("/proc/rilo.txt", "x"); }, {"/proc/rilo.txt", "cannot create"});
 }
 
+TEST(AtomicFileTest, LongNamesAreReplacedAndTooLongOnesRefusedAtOnce) {
+  const TempDir folder;
+  const fs::path file = folder / std::string(250, 'n');
+  for (const char* text : {"first", "second"}) {
+    write_atomically(file, text);
+    EXPECT_EQ(slurp(file), text);
+  }
+  expect_io_error([&] { const AtomicFile too_long(folder / std::string(300, 'n')); }, {"nnn", "cannot be written"});
+  EXPECT_EQ(files_in(folder.path()), 1U);
+}
+
 TEST(AtomicFileTest, ReadOnlyFolder) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const TempDir folder;

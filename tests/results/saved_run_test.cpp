@@ -1,10 +1,14 @@
 // The folder of a run, read back.
 #include "results/saved_run.hpp"
 
+#include <unistd.h>
+
 #include <gmock/gmock.h>
 
 #include "io/io_test_util.hpp"
 #include "results/metrics_json.hpp"
+#include "results/output_check.hpp"
+#include "results/pose_files.hpp"
 #include "results/run_metrics.hpp"
 #include "results/run_outputs.hpp"
 
@@ -93,6 +97,29 @@ TEST(SavedRun, SaysWhatIsMissing) {
   EXPECT_THAT(refusal(folder / "nowhere"), HasSubstr("no such folder"));
   EXPECT_THAT(refusal(folder.write("file", "")), HasSubstr("a file"));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("neither metrics.json nor"));
+}
+
+TEST(Outputs, AFileThatCannotBeReadIsNotReplaced) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  const TempDir folder;
+  const std::filesystem::path file = folder.write("map.ply", "mine");
+  std::filesystem::permissions(file, std::filesystem::perms::none);
+  EXPECT_THROW(check_replaced(file, "Rilo map", "map of an earlier run", "--map"), RunError);
+}
+
+// Longer than a file system takes, so that looking at it fails, too.
+TEST(Paths, ThatCannotBeLookedAtAreRefusedAsSuch) {
+  const TempDir folder;
+  const std::filesystem::path name = folder / std::string(300, 'n');
+  EXPECT_THROW(read_poses(name), IoError);
+  EXPECT_THROW(read_truth(name, PoseInstant::kMid), IoError);
+  try {
+    create_folder(name);
+    FAIL() << "created";
+  } catch (const RunError& error) {
+    EXPECT_EQ(error.kind(), RunErrorKind::kCannotWrite);
+    EXPECT_THAT(error.what(), HasSubstr("choose another --out"));
+  }
 }
 
 }  // namespace

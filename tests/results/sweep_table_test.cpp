@@ -76,6 +76,11 @@ TEST(SweepTable, LinesMayEndAsOnWindows) {
   EXPECT_EQ(table.results.at(0).stats.times.total_ms, 12.0);
 }
 
+TEST(SweepTable, MayBeginWithAByteOrderMark) {
+  const TempDir folder;
+  EXPECT_EQ(read_sweeps_csv(folder.write("sweeps.csv", "\xEF\xBB\xBF" + csv())).results.size(), 2U);
+}
+
 TEST(SweepTable, ColumnsThatAreNotNeededMayBeMissing) {
   const TempDir folder;
   const std::string header =

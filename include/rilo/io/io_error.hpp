@@ -16,7 +16,7 @@ struct IoProblem {
   std::string remedy;  ///< what to do, a sentence without the full stop
 };
 
-/// Message: "FILE, POSITION: found …; expected …. What to do."
+/// Message: "FILE, POSITION: what was found; expected …. What to do."
 class IoError : public std::runtime_error {
  public:
   explicit IoError(IoProblem problem);

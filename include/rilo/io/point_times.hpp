@@ -69,7 +69,7 @@ class PointTimeDecoder {
   std::string warning_;
 };
 
-/// Times of a spinning sensor that whose timestamp is that of the forward direction (azimuth 0): time = -azimuth / 2π ·
+/// Times of a spinning sensor whose timestamp is that of the forward direction (azimuth 0): time = -azimuth / 2π ·
 /// period for clockwise, seen from above, else +; within ± period / 2. NaN points get 0.
 std::vector<float> azimuth_times(const std::vector<Eigen::Vector3f>& points, double period_s, SpinDirection direction);
 

@@ -99,9 +99,9 @@ class ScanSource {
   ScanSource& operator=(const ScanSource&) = default;
 };
 
-/// Opens a KITTI sequence folder, a drive simulator's folder, a folder of .bin, .pcd or .ply sweeps, or one such file;
-/// the kind is guessed from what lies in the path. Elevation correction and reading ahead are in place as `options`
-/// say. See docs/file-formats.md.
+/// Opens a data set's folder (KITTI, MulRan, a drive simulator's), a folder of .bin, .pcd or .ply sweeps, one such
+/// file, or a recording (bags, MCAP, packets); the kind is guessed from what lies in the path. Elevation correction and
+/// reading ahead are in place as `options` say. See docs/file-formats.md.
 /// @throws IoError when the path is none of these; std::invalid_argument when an option makes no sense.
 std::unique_ptr<ScanSource> open_scan_source(const std::filesystem::path& path, const SourceOptions& options = {});
 

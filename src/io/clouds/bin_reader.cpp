@@ -87,7 +87,7 @@ RawCloud read_bin(const std::filesystem::path& file, const std::string& fields) 
   for (std::size_t i = 0; i < columns.size(); ++i) {
     views.push_back({bytes.data.get() + i * sizeof(float), record, ScalarType::kFloat32, false});
   }
-  RawCloud cloud = detail::assemble_cloud(columns, detail::find_roles(columns, "", file), views, bytes.size / record);
+  RawCloud cloud = detail::assemble_cloud(columns, detail::find_roles(columns, "", {file}), views, bytes.size / record);
   detail::check_plausible(file, fields, cloud);
   return cloud;
 }

@@ -7,7 +7,6 @@
 #include <initializer_list>
 #include <limits>
 
-#include "io/byte_cursor.hpp"
 #include "io/raw_bytes.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
@@ -164,21 +163,20 @@ std::vector<std::size_t> FieldRoles::all() const {
   return indices;
 }
 
-FieldRoles find_roles(const std::vector<Field>& fields, const std::string& time_field,
-                      const std::filesystem::path& file, const std::string& part) {
+FieldRoles find_roles(const std::vector<Field>& fields, const std::string& time_field, const BytesOrigin& origin) {
   std::vector<std::string> names;
   names.reserve(fields.size());
   for (const Field& field : fields) names.push_back(plain_name(field.name));
   FieldRoles roles;
-  roles.x = need(fields, names, "x", {file, part});
-  roles.y = need(fields, names, "y", {file, part});
-  roles.z = need(fields, names, "z", {file, part});
+  roles.x = need(fields, names, "x", origin);
+  roles.y = need(fields, names, "y", origin);
+  roles.z = need(fields, names, "z", origin);
   roles.intensity = find_name(names, {"intensity", "i", "reflectivity", "remission", "reflectance"});
   roles.ring = find_name(names, {"ring", "channel", "line", "laser_id"});
   if (!time_field.empty()) {
     roles.time = find_name(names, {plain_name(time_field)});
     if (!roles.time) {
-      throw IoError({file, part, list_of(fields), "the time field " + in_quotes(time_field),
+      throw IoError({origin.file, origin.part, list_of(fields), "the time field " + in_quotes(time_field),
                      "Set time_field (--time-field) to one of these, or leave it out"});
     }
     return roles;
@@ -240,26 +238,23 @@ PackedRows::PackedRows(const std::vector<Field>& fields, const FieldRoles& roles
 }
 
 bool PackedRows::store_text(std::size_t field, std::string_view text) {
-  char* to = last_row() + *offsets_[field];
-  return with_type(types_[field], [&](auto example) {
-    using T = decltype(example);
+  return with_type(types_[field], [&](auto value) {
+    using T = decltype(value);
     if constexpr (std::is_floating_point_v<T>) {
       const auto number = parse_double(text);
       if (!number) return false;
-      const T value = static_cast<T>(*number);
-      std::memcpy(to, &value, sizeof(T));
-      return true;
+      value = static_cast<T>(*number);
     } else if constexpr (std::is_same_v<T, std::uint64_t>) {
       const auto number = parse_unsigned(text);
-      if (number) std::memcpy(to, &*number, sizeof(T));
-      return number.has_value();
+      if (!number) return false;
+      value = *number;
     } else {
       const auto number = parse_whole(text);
       if (!number || *number < std::numeric_limits<T>::min() || *number > std::numeric_limits<T>::max()) return false;
-      const T value = static_cast<T>(*number);
-      std::memcpy(to, &value, sizeof(T));
-      return true;
+      value = static_cast<T>(*number);
     }
+    std::memcpy(last_row() + *offsets_[field], &value, sizeof(T));
+    return true;
   });
 }
 

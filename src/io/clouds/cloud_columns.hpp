@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/byte_cursor.hpp"
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/scan_source.hpp"
 
@@ -47,11 +48,9 @@ struct FieldRoles {
   std::vector<std::size_t> all() const;
 };
 
-/// Finds the roles by the usual names, whatever their case; CloudCompare's prefix "scalar_" is ignored. `part` of the
-/// file ("message 17 of /points") is for messages.
+/// Finds the roles by the usual names, whatever their case; CloudCompare's prefix "scalar_" is ignored.
 /// @throws IoError when x, y or z is missing, or the time field that was asked for.
-FieldRoles find_roles(const std::vector<Field>& fields, const std::string& time_field,
-                      const std::filesystem::path& file, const std::string& part = "");
+FieldRoles find_roles(const std::vector<Field>& fields, const std::string& time_field, const BytesOrigin& origin);
 
 /// For SourceInfo::fields.
 std::vector<FieldInfo> describe_fields(const std::vector<Field>& fields, const FieldRoles& roles);

@@ -1,5 +1,7 @@
 #include "io/clouds/pcd_header.hpp"
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 
@@ -86,16 +88,11 @@ class PcdHeaderParser {
   }
 
   void take_encoding(const std::vector<std::string_view>& values) {
+    constexpr std::array<std::string_view, 3> kNames{"ascii", "binary", "binary_compressed"};  // as PcdEncoding
     const std::string_view name = values.size() == 1 ? values[0] : std::string_view();
-    if (name == "ascii") {
-      header_.encoding = PcdEncoding::kAscii;
-    } else if (name == "binary") {
-      header_.encoding = PcdEncoding::kBinary;
-    } else if (name == "binary_compressed") {
-      header_.encoding = PcdEncoding::kBinaryCompressed;
-    } else {
-      fail("DATA " + in_quotes(name), "DATA ascii, binary or binary_compressed");
-    }
+    const auto known = std::find(kNames.begin(), kNames.end(), name);
+    if (known == kNames.end()) fail("DATA " + in_quotes(name), "DATA ascii, binary or binary_compressed");
+    header_.encoding = static_cast<PcdEncoding>(known - kNames.begin());
   }
 
   PcdHeader finished() {

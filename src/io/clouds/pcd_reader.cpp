@@ -163,16 +163,9 @@ RawCloud read_compressed(const PcdBody& body) {
 RawCloud read_pcd(const std::filesystem::path& file, const std::string& time_field) {
   const detail::FileBytes bytes = detail::read_file(file);
   const detail::PcdHeader header = detail::parse_pcd_header(file, bytes.view());
-  const detail::PcdBody body{bytes, header, detail::find_roles(header.fields, time_field, file)};
-  switch (header.encoding) {
-    case detail::PcdEncoding::kAscii:
-      return detail::read_ascii(body);
-    case detail::PcdEncoding::kBinary:
-      return detail::read_binary(body);
-    case detail::PcdEncoding::kBinaryCompressed:
-      break;
-  }
-  return detail::read_compressed(body);
+  const detail::PcdBody body{bytes, header, detail::find_roles(header.fields, time_field, {file})};
+  if (header.encoding == detail::PcdEncoding::kAscii) return detail::read_ascii(body);
+  return header.encoding == detail::PcdEncoding::kBinary ? detail::read_binary(body) : detail::read_compressed(body);
 }
 
 }  // namespace rilo

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
@@ -10,24 +9,9 @@
 namespace rilo::detail {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ScalarType>, 18> kTypeNames{{{"char", ScalarType::kInt8},
-                                                                              {"int8", ScalarType::kInt8},
-                                                                              {"uchar", ScalarType::kUint8},
-                                                                              {"uint8", ScalarType::kUint8},
-                                                                              {"short", ScalarType::kInt16},
-                                                                              {"int16", ScalarType::kInt16},
-                                                                              {"ushort", ScalarType::kUint16},
-                                                                              {"uint16", ScalarType::kUint16},
-                                                                              {"int", ScalarType::kInt32},
-                                                                              {"int32", ScalarType::kInt32},
-                                                                              {"uint", ScalarType::kUint32},
-                                                                              {"uint32", ScalarType::kUint32},
-                                                                              {"int64", ScalarType::kInt64},
-                                                                              {"uint64", ScalarType::kUint64},
-                                                                              {"float", ScalarType::kFloat32},
-                                                                              {"float32", ScalarType::kFloat32},
-                                                                              {"double", ScalarType::kFloat64},
-                                                                              {"float64", ScalarType::kFloat64}}};
+// The old names; a type goes by to_string() as well. In the order of ScalarType.
+constexpr std::array<std::string_view, 10> kOldNames{"char", "uchar", "short", "ushort", "int",
+                                                     "uint", "",      "",      "float",  "double"};
 
 class PlyHeaderParser {
  public:
@@ -63,16 +47,13 @@ class PlyHeaderParser {
   }
 
   void take_format(const std::vector<std::string_view>& words) {
+    constexpr std::array<std::string_view, 3> kNames{"ascii", "binary_little_endian", "binary_big_endian"};
     const std::string_view name = words.size() == 3 ? words[1] : std::string_view();
-    if (name == "ascii") {
-      header_.encoding = PlyEncoding::kAscii;
-    } else if (name == "binary_little_endian") {
-      header_.encoding = PlyEncoding::kBinaryLittleEndian;
-    } else if (name == "binary_big_endian") {
-      header_.encoding = PlyEncoding::kBinaryBigEndian;
-    } else {
+    const auto known = std::find(kNames.begin(), kNames.end(), name);
+    if (known == kNames.end()) {
       fail("format " + in_quotes(name), "format ascii, binary_little_endian or binary_big_endian, and 1.0");
     }
+    header_.encoding = static_cast<PlyEncoding>(known - kNames.begin());  // in the same order
     has_format_ = true;
   }
 
@@ -98,11 +79,11 @@ class PlyHeaderParser {
   }
 
   ScalarType type_of(std::string_view name) const {
-    const auto found =
-        std::find_if(kTypeNames.begin(), kTypeNames.end(), [&](const auto& row) { return row.first == name; });
-    if (found == kTypeNames.end())
-      fail("the type " + in_quotes(name), "char, uchar, short, ushort, int, uint, float or double");
-    return found->second;
+    for (std::size_t i = 0; i < kOldNames.size(); ++i) {
+      const auto type = static_cast<ScalarType>(i);
+      if (name == kOldNames[i] || name == to_string(type)) return type;
+    }
+    fail("the type " + in_quotes(name), "char, uchar, short, ushort, int, uint, float or double");
   }
 
   PlyHeader finished() {
@@ -119,6 +100,14 @@ class PlyHeaderParser {
 };
 
 }  // namespace
+
+std::vector<Field> PlyElement::fields() const {
+  std::vector<Field> fields;
+  for (const PlyProperty& property : properties) {
+    fields.push_back({property.list_count ? "(list)" : property.name, property.type, 1});
+  }
+  return fields;
+}
 
 bool PlyElement::has_list() const {
   return std::any_of(properties.begin(), properties.end(),

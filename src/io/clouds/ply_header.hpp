@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rilo/io/cloud_reader.hpp"
+#include "io/clouds/cloud_columns.hpp"
 
 namespace rilo::detail {
 
@@ -26,6 +26,8 @@ struct PlyElement {
   std::size_t count = 0;
   std::vector<PlyProperty> properties;
 
+  /// A list is not a column: its name must not be taken for one.
+  std::vector<Field> fields() const;
   bool has_list() const;
   /// Bytes of a row; with lists: of a row whose lists are empty.
   std::size_t least_bytes() const;

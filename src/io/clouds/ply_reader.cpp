@@ -38,15 +38,6 @@ void check_count(const PlyBody& body, const PlyElement& element, std::size_t lea
             "at least " + std::to_string(least_bytes) + " bytes a row");
 }
 
-std::vector<Field> fields_of(const PlyElement& vertex) {
-  std::vector<Field> fields;
-  for (const PlyProperty& property : vertex.properties) {
-    // A list is not a column: its name must not be taken for one.
-    fields.push_back({property.list_count ? "(list)" : property.name, property.type, 1});
-  }
-  return fields;
-}
-
 // Each value of a list takes a byte at least.
 std::size_t take_length(const PlyBody& body, ByteCursor& cursor, ScalarType type) {
   const char* place = cursor.take_bytes(size_of(type), "a list's length").data();
@@ -79,7 +70,7 @@ void pass_over_binary(const PlyBody& body, ByteCursor& cursor, const PlyElement&
 
 RawCloud read_binary_vertices(const PlyBody& body, ByteCursor& cursor, const PlyElement& vertex,
                               const FieldRoles& roles) {
-  const std::vector<Field> fields = fields_of(vertex);
+  const std::vector<Field> fields = vertex.fields();
   const std::size_t stride = vertex.least_bytes();
   check_count(body, vertex, stride, cursor.left());
   if (vertex.has_list()) {
@@ -142,7 +133,7 @@ RawCloud read_ascii(const PlyBody& body, const PlyElement& vertex, const FieldRo
     if (&element == &vertex) break;
     for (std::size_t row = 0; least > 0 && row < element.count; ++row) next_row(body, lines, element, row);
   }
-  const std::vector<Field> fields = fields_of(vertex);
+  const std::vector<Field> fields = vertex.fields();
   PackedRows rows(fields, roles);
   for (std::size_t row = 0; row < vertex.count; ++row) {
     const std::string_view line = next_row(body, lines, vertex, row);
@@ -176,9 +167,9 @@ RawCloud read_ply(const std::filesystem::path& file, const std::string& time_fie
   const detail::PlyHeader header = detail::parse_ply_header(file, bytes.view());
   const detail::PlyBody body{bytes, header};
   const detail::PlyElement& vertex = detail::vertex_of(body);
-  const detail::FieldRoles roles = detail::find_roles(detail::fields_of(vertex), time_field, file);
-  if (header.encoding == detail::PlyEncoding::kAscii) return detail::read_ascii(body, vertex, roles);
   const detail::BytesOrigin origin{file};
+  const detail::FieldRoles roles = detail::find_roles(vertex.fields(), time_field, origin);
+  if (header.encoding == detail::PlyEncoding::kAscii) return detail::read_ascii(body, vertex, roles);
   detail::ByteCursor cursor(body.bytes(), origin, header.body_offset);
   for (const detail::PlyElement& element : header.elements) {
     if (&element == &vertex) break;

@@ -36,12 +36,10 @@ std::vector<Field> fields_of(const std::filesystem::path& file, const std::strin
   if (format == "bin") return parse_bin_fields(options.bin_fields);
   const FileBytes start = read_file(file, kLongestHeader);
   if (format == "pcd") return parse_pcd_header(file, start.view()).fields;
-  std::vector<Field> fields;
   for (const PlyElement& element : parse_ply_header(file, start.view()).elements) {
-    if (element.name != "vertex") continue;
-    for (const PlyProperty& property : element.properties) fields.push_back({property.name, property.type, 1});
+    if (element.name == "vertex") return element.fields();
   }
-  return fields;
+  return {};
 }
 
 // What the first file has, its time field above all; also fills in the fields of the listing. A file that cannot be
@@ -49,7 +47,7 @@ std::vector<Field> fields_of(const std::filesystem::path& file, const std::strin
 std::optional<std::string> promised_field(ScanListing& listing, const SourceOptions& options) {
   try {
     const std::vector<Field> fields = fields_of(listing.files.front(), listing.info.format, options);
-    const FieldRoles roles = find_roles(fields, options.time_field, listing.files.front());
+    const FieldRoles roles = find_roles(fields, options.time_field, {listing.files.front()});
     listing.info.fields = describe_fields(fields, roles);
     if (roles.time) return "field " + fields[*roles.time].name;
   } catch (const IoError&) {

@@ -39,17 +39,23 @@ OusterMetadata read_ouster_metadata(const std::filesystem::path& file);
 OusterMetadata parse_ouster_metadata(std::string_view text, const std::filesystem::path& file,
                                      const std::string& part = {});
 
-/// Where the bytes of a packet lie.
+/// Where the bytes of a packet lie, and what a pixel's mean.
 struct OusterLayout {
   std::size_t packet_header = 0;
   std::size_t column_header = 0;
   std::size_t column_footer = 0;
   std::size_t pixel = 0;
   std::size_t packet_footer = 0;
+  std::uint32_t range_mask = 0;  ///< of the first 32 bits of a pixel
+  std::uint32_t range_unit_mm = 1;
+  std::size_t reflectivity_at = 0;  ///< in a pixel
+  bool wide_reflectivity = false;   ///< 16 bits, else 8
 
   std::size_t column_bytes(std::size_t pixels) const { return column_header + pixels * pixel + column_footer; }
 };
 OusterLayout ouster_layout(OusterProfile profile);
+/// As the metadata have it: "RNG15_RFL8_NIR8".
+std::string to_string(OusterProfile profile);
 std::size_t ouster_packet_bytes(const OusterMetadata& metadata);
 
 /// A sweep is a frame of the sensor.

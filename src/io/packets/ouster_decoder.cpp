@@ -10,42 +10,18 @@
 namespace rilo::detail {
 namespace {
 
-const char* name_of(OusterProfile profile) {
-  switch (profile) {
-    case OusterProfile::kLegacy:
-      return "LEGACY";
-    case OusterProfile::kRng15:
-      return "RNG15_RFL8_NIR8";
-    case OusterProfile::kRng19:
-      return "RNG19_RFL8_SIG16_NIR16";
-    case OusterProfile::kRng19Dual:
-      break;
-  }
-  return "RNG19_RFL8_SIG16_NIR16_DUAL, the first of two returns";
-}
-
 struct Pixel {
   double range_m = 0;
   float reflectivity = 0;
 };
 
-Pixel pixel_at(std::string_view bytes, OusterProfile profile, std::size_t at) {
+Pixel pixel_at(std::string_view bytes, const OusterLayout& layout, std::size_t at) {
   constexpr double kMillimetres = 1e-3;
-  const auto word = load_bytes<std::uint32_t>(bytes, at);
-  const auto byte = [&](std::size_t offset) {
-    return static_cast<float>(load_bytes<std::uint8_t>(bytes, at + offset));
-  };
-  switch (profile) {
-    case OusterProfile::kLegacy:
-      return {(word & 0xFFFFF) * kMillimetres, static_cast<float>(load_bytes<std::uint16_t>(bytes, at + 4))};
-    case OusterProfile::kRng15:
-      return {(word & 0x7FFF) * 8 * kMillimetres, byte(2)};
-    case OusterProfile::kRng19:
-      return {(word & 0x7FFFF) * kMillimetres, byte(4)};
-    case OusterProfile::kRng19Dual:
-      break;
-  }
-  return {(word & 0x7FFFF) * kMillimetres, byte(3)};
+  const std::uint32_t range = load_bytes<std::uint32_t>(bytes, at) & layout.range_mask;
+  const std::size_t place = at + layout.reflectivity_at;
+  const unsigned reflectivity =
+      layout.wide_reflectivity ? load_bytes<std::uint16_t>(bytes, place) : load_bytes<std::uint8_t>(bytes, place);
+  return {range * layout.range_unit_mm * kMillimetres, static_cast<float>(reflectivity)};
 }
 
 class OusterDecoder final : public PacketDecoder {
@@ -58,7 +34,8 @@ class OusterDecoder final : public PacketDecoder {
 
   std::string description() const override {
     const std::string product = metadata_.product.empty() ? "" : " " + metadata_.product;
-    return "Ouster" + product + ", " + name_of(metadata_.profile);
+    const bool dual = metadata_.profile == OusterProfile::kRng19Dual;
+    return "Ouster" + product + ", " + to_string(metadata_.profile) + (dual ? ", the first of two returns" : "");
   }
   std::size_t clock_resets() const override { return clock_.resets(); }
   bool accepts(std::string_view payload) const override { return payload.size() == packet_bytes_; }
@@ -102,7 +79,7 @@ class OusterDecoder final : public PacketDecoder {
     const double turned =
         2 * std::numbers::pi * (1 - static_cast<double>(id) / static_cast<double>(metadata_.columns_per_frame));
     for (std::size_t k = 0; k < metadata_.pixels(); ++k) {
-      const Pixel pixel = pixel_at(column, metadata_.profile, layout_.column_header + k * layout_.pixel);
+      const Pixel pixel = pixel_at(column, layout_, layout_.column_header + k * layout_.pixel);
       if (pixel.range_m <= metadata_.beam_origin_m) continue;  // 0: no return
       // The uppermost beam is the first; rings count from below.
       sweep_.add(point_of(pixel.range_m, turned, k), pixel.reflectivity,

@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -15,6 +16,17 @@ namespace {
 
 using nlohmann::json;
 constexpr std::size_t kLargestFile = std::size_t{1} << 22;
+
+struct ProfileRow {
+  const char* name = "";
+  OusterLayout layout;
+};
+// In the order of OusterProfile.
+constexpr std::array<ProfileRow, 4> kProfiles{
+    {{"LEGACY", {0, 16, 4, 12, 0, 0xFFFFF, 1, 4, true}},
+     {"RNG15_RFL8_NIR8", {32, 12, 0, 4, 32, 0x7FFF, 8, 2, false}},
+     {"RNG19_RFL8_SIG16_NIR16", {32, 12, 0, 12, 32, 0x7FFFF, 1, 4, false}},
+     {"RNG19_RFL8_SIG16_NIR16_DUAL", {32, 12, 0, 16, 32, 0x7FFFF, 1, 3, false}}}};
 
 class MetadataText {
  public:
@@ -79,13 +91,13 @@ class MetadataText {
 
 OusterProfile profile_of(const MetadataText& file) {
   const std::string name = file.text("udp_profile_lidar");
-  if (name.empty() || name == "LEGACY") return OusterProfile::kLegacy;
-  if (name == "RNG15_RFL8_NIR8") return OusterProfile::kRng15;
-  if (name == "RNG19_RFL8_SIG16_NIR16") return OusterProfile::kRng19;
-  if (name == "RNG19_RFL8_SIG16_NIR16_DUAL") return OusterProfile::kRng19Dual;
-  file.reject("udp_profile_lidar", in_quotes(name) +
-                                       " (known: LEGACY, RNG15_RFL8_NIR8, RNG19_RFL8_SIG16_NIR16, "
-                                       "RNG19_RFL8_SIG16_NIR16_DUAL)");
+  if (name.empty()) return OusterProfile::kLegacy;
+  std::string known;
+  for (std::size_t i = 0; i < kProfiles.size(); ++i) {
+    if (name == kProfiles[i].name) return static_cast<OusterProfile>(i);
+    known += (i == 0 ? "" : ", ") + std::string(kProfiles[i].name);
+  }
+  file.reject("udp_profile_lidar", in_quotes(name) + " (known: " + known + ")");
 }
 
 // "1024x10": columns per revolution, revolutions per second.
@@ -165,19 +177,8 @@ OusterMetadata parse_ouster_metadata(std::string_view text, const std::filesyste
   return metadata;
 }
 
-OusterLayout ouster_layout(OusterProfile profile) {
-  switch (profile) {
-    case OusterProfile::kLegacy:
-      return {0, 16, 4, 12, 0};
-    case OusterProfile::kRng15:
-      return {32, 12, 0, 4, 32};
-    case OusterProfile::kRng19:
-      return {32, 12, 0, 12, 32};
-    case OusterProfile::kRng19Dual:
-      break;
-  }
-  return {32, 12, 0, 16, 32};
-}
+OusterLayout ouster_layout(OusterProfile profile) { return kProfiles[static_cast<std::size_t>(profile)].layout; }
+std::string to_string(OusterProfile profile) { return kProfiles[static_cast<std::size_t>(profile)].name; }
 
 std::size_t ouster_packet_bytes(const OusterMetadata& metadata) {
   const OusterLayout layout = ouster_layout(metadata.profile);

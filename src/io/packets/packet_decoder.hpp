@@ -58,8 +58,6 @@ class PacketDecoder {
 
   /// For people: "Velodyne VLP-16, strongest returns".
   virtual std::string description() const = 0;
-  /// Where the times come from, for people.
-  virtual std::string point_times() const { return "of the packets, s since the earliest point"; }
 
   /// Whether a payload may be one of the sensor's LiDAR packets.
   virtual bool accepts(std::string_view payload) const = 0;

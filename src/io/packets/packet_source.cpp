@@ -77,7 +77,7 @@ class PacketSource final : public ScanSource {
     info.format = container + (container.empty() ? "" : ", ") + decoder_->description();
     info.frame_id = stream_->frame_id();
     info.has_point_times = options_.point_times != PointTimes::kNone;
-    info.point_times = decoder_->point_times();
+    info.point_times = "of the packets, s since the earliest point";
     if (options_.point_times == PointTimes::kNone) info.point_times = "none";
     if (options_.point_times == PointTimes::kAzimuth) info.point_times = "azimuth";
     for (std::string& warning : stream_->warnings()) info.warnings.push_back(std::move(warning));

@@ -146,16 +146,14 @@ std::optional<std::string_view> UdpReader::put_together(std::string_view packet,
                                                         bool more) {
   constexpr std::size_t kMostOpen = 32;
   constexpr std::size_t kLargest = 65535;
-  const std::uint64_t key = std::uint64_t{big_endian16(packet, 12)} << 48 |
-                            std::uint64_t{big_endian16(packet, 14)} << 32 |
-                            std::uint64_t{big_endian16(packet, 16)} << 16 | big_endian16(packet, 18);
-  const std::uint32_t key_more = big_endian16(packet, 4);
+  const auto addresses = load_bytes<std::uint64_t>(packet, 12);
+  const auto number = load_bytes<std::uint16_t>(packet, 4);
   auto open = std::find_if(fragments_.begin(), fragments_.end(), [&](const Fragments& candidate) {
-    return candidate.key == key && candidate.key_more == key_more;
+    return candidate.addresses == addresses && candidate.number == number;
   });
   if (open == fragments_.end()) {
     if (fragments_.size() == kMostOpen) fragments_.pop_front();
-    fragments_.push_back({key, key_more, {}, 0, {}});
+    fragments_.push_back({addresses, number, {}, 0, {}});
     open = std::prev(fragments_.end());
   }
   const std::string_view part = packet.substr(header);

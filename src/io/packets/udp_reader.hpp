@@ -36,8 +36,8 @@ class UdpReader final : public PacketStream {
 
  private:
   struct Fragments {
-    std::uint64_t key = 0;
-    std::uint32_t key_more = 0;
+    std::uint64_t addresses = 0;  // of the sender and the receiver
+    std::uint16_t number = 0;     // of the datagram
     std::string bytes;
     std::size_t received = 0;
     std::optional<std::size_t> total;

@@ -7,11 +7,9 @@
 
 namespace rilo::detail {
 
-LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
-                         const std::string& part) {
+LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const BytesOrigin& origin) {
   constexpr std::size_t kPointBytes = 19;  // without what CDR puts between two of them
   constexpr std::size_t kReserved = 3;
-  const BytesOrigin origin{file, part};
   MessageCursor cursor(bytes, encoding, origin);
   MessageHeaderFields header = take_header(cursor);
   LivoxMessage message;
@@ -42,10 +40,8 @@ LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const
   return message;
 }
 
-VelodyneScan parse_velodyne_scan(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
-                                 const std::string& part) {
+VelodyneScan parse_velodyne_scan(std::string_view bytes, MessageEncoding encoding, const BytesOrigin& origin) {
   constexpr std::size_t kStampBytes = 8;
-  const BytesOrigin origin{file, part};
   MessageCursor cursor(bytes, encoding, origin);
   VelodyneScan scan;
   scan.frame_id = take_header(cursor).frame_id;
@@ -57,15 +53,11 @@ VelodyneScan parse_velodyne_scan(std::string_view bytes, MessageEncoding encodin
   return scan;
 }
 
-std::string_view parse_ouster_packet(std::string_view bytes, MessageEncoding encoding,
-                                     const std::filesystem::path& file, const std::string& part) {
-  const BytesOrigin origin{file, part};
+std::string_view parse_ouster_packet(std::string_view bytes, MessageEncoding encoding, const BytesOrigin& origin) {
   return MessageCursor(bytes, encoding, origin).take_sequence("buf");
 }
 
-std::string parse_text_message(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
-                               const std::string& part) {
-  const BytesOrigin origin{file, part};
+std::string parse_text_message(std::string_view bytes, MessageEncoding encoding, const BytesOrigin& origin) {
   return MessageCursor(bytes, encoding, origin).take_string("data");
 }
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/byte_cursor.hpp"
 #include "rilo/io/cloud_reader.hpp"
 #include "rilo/io/point_cloud2.hpp"
 
@@ -22,10 +22,8 @@ struct LivoxMessage {
   RawCloud cloud;
 };
 
-/// `file` and `part` ("message 17 of /livox/lidar") are for messages.
 /// @throws IoError, with the byte, when the bytes are not a CustomMsg.
-LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
-                         const std::string& part);
+LivoxMessage parse_livox(std::string_view bytes, MessageEncoding encoding, const BytesOrigin& origin);
 
 /// `data` looks into the bytes it was parsed from.
 struct RecordedPacket {
@@ -38,18 +36,13 @@ struct VelodyneScan {
   std::vector<RecordedPacket> packets;
 };
 
-/// velodyne_msgs/VelodyneScan: about a revolution. `file` and `part` ("message 17 of /velodyne_packets") are for
-/// messages.
-/// @throws IoError, with the byte, when the bytes are not one.
-VelodyneScan parse_velodyne_scan(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
-                                 const std::string& part);
+/// velodyne_msgs/VelodyneScan: about a revolution. @throws IoError, with the byte, when the bytes are not one.
+VelodyneScan parse_velodyne_scan(std::string_view bytes, MessageEncoding encoding, const BytesOrigin& origin);
 
 /// The packet of a PacketMsg of ouster_ros, ouster_msgs or ouster_sensor_msgs. @throws IoError as above.
-std::string_view parse_ouster_packet(std::string_view bytes, MessageEncoding encoding,
-                                     const std::filesystem::path& file, const std::string& part);
+std::string_view parse_ouster_packet(std::string_view bytes, MessageEncoding encoding, const BytesOrigin& origin);
 
 /// std_msgs/String. @throws IoError as above.
-std::string parse_text_message(std::string_view bytes, MessageEncoding encoding, const std::filesystem::path& file,
-                               const std::string& part);
+std::string parse_text_message(std::string_view bytes, MessageEncoding encoding, const BytesOrigin& origin);
 
 }  // namespace rilo::detail

@@ -30,11 +30,7 @@ class LiveRecording final : public Recording {
       kept_.push_back(std::move(*message));
       return view_of(kept_.back());
     }
-    if (next_kept_ < kept_.size()) {
-      current_ = std::move(kept_[next_kept_++]);
-      return view_of(current_);
-    }
-    auto message = queue_->pop();
+    auto message = next_kept_ < kept_.size() ? std::move(kept_[next_kept_++]) : queue_->pop();
     if (!message) return std::nullopt;
     current_ = std::move(*message);
     return view_of(current_);

@@ -1,6 +1,5 @@
 // A single MCAP file, read from front to back, a chunk at a time.
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <set>
 
@@ -183,8 +182,7 @@ class Reader final : public Recording {
     file_.look_into(record, [&](ByteCursor cursor) {
       const ChunkHeader header = take_chunk_header(cursor);
       const auto size = cursor.take<std::uint64_t>("size of the records");
-      const std::string_view packed = cursor.take_bytes(
-          static_cast<std::size_t>(std::min<std::uint64_t>(size, std::numeric_limits<std::size_t>::max())), "records");
+      const std::string_view packed = cursor.take_bytes(static_cast<std::size_t>(size), "records");
       try {
         unpack(header, packed);
       } catch (const IoError&) {

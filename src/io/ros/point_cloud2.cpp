@@ -127,11 +127,10 @@ RawCloud columns_of(const PointCloud2& message, const std::string& time_field, c
     fields.push_back({field.name, *type, field.count});
     described.push_back(&field);
   }
-  const detail::FieldRoles roles = detail::find_roles(fields, time_field, file, part);
-  if (points.count == 0)
-    return detail::assemble_cloud(fields, roles, std::vector<detail::ColumnView>(fields.size()), 0);
+  const detail::FieldRoles roles = detail::find_roles(fields, time_field, origin);
   std::vector<detail::ColumnView> columns(fields.size());
   for (const std::size_t i : roles.all()) {
+    if (points.count == 0) break;  // no address to add an offset to
     detail::check_inside(message, *described[i], origin);
     columns[i] = {points.data() + described[i]->offset, message.point_step, fields[i].type, false};
   }

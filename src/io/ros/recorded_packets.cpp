@@ -33,7 +33,7 @@ RecordedMetadata recorded_metadata(Recording& recording, const RecordedTopic& pa
   const auto message = recording.next();
   if (!message) return {};
   const std::string part = "topic " + topic->name;
-  return {parse_text_message(message->bytes, encoding_of(*topic), message->file, part), part};
+  return {parse_text_message(message->bytes, encoding_of(*topic), {message->file, part}), part};
 }
 
 class RecordedPackets final : public PacketStream {
@@ -72,9 +72,9 @@ class RecordedPackets final : public PacketStream {
 
  private:
   void unpack(const RecordedMessage& message) {
-    const std::string part = "message " + std::to_string(messages_) + " of " + topic_.name;
+    const BytesOrigin origin{message.file, "message " + std::to_string(messages_) + " of " + topic_.name};
     if (scan_form(topic_) == ScanForm::kVelodynePackets) {
-      VelodyneScan scan = parse_velodyne_scan(message.bytes, encoding_of(topic_), message.file, part);
+      VelodyneScan scan = parse_velodyne_scan(message.bytes, encoding_of(topic_), origin);
       frame_id_ = std::move(scan.frame_id);
       packets_ = std::move(scan.packets);
       for (RecordedPacket& packet : packets_) {
@@ -82,7 +82,7 @@ class RecordedPackets final : public PacketStream {
       }
       return;
     }
-    std::string_view packet = parse_ouster_packet(message.bytes, encoding_of(topic_), message.file, part);
+    std::string_view packet = parse_ouster_packet(message.bytes, encoding_of(topic_), origin);
     // Ouster's first drivers gave the buffer a byte more than the packet, whose size is a multiple of four.
     if (packet.size() % 4 == 1) packet.remove_suffix(1);
     packets_.push_back({message.received_ns, packet});

@@ -43,14 +43,14 @@ std::vector<FieldInfo> fields_of(const RecordedMessage& message, const RecordedT
   PointCloud2 parsed;
   std::vector<Field> fields;
   for (const PointField& field : cloud_in(message, topic, "", parsed).fields) fields.push_back({field.name});
-  return describe_fields(fields, find_roles(fields, time_field, message.file));
+  return describe_fields(fields, find_roles(fields, time_field, {message.file}));
 }
 
 // Stamp and frame are set even when it throws because of the points.
 void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, const std::string& time_field,
                  const std::string& part, CloudMessage& into) {
   if (scan_form(topic) == ScanForm::kLivoxCustom) {
-    LivoxMessage livox = parse_livox(message.bytes, encoding_of(topic), message.file, part);
+    LivoxMessage livox = parse_livox(message.bytes, encoding_of(topic), {message.file, part});
     const std::string sensor = "LiDAR " + std::to_string(livox.lidar_id) + " in frame " + in_quotes(livox.frame_id);
     into = {livox.stamp_ns, std::move(livox.frame_id), std::move(livox.cloud), sensor};
     return;
@@ -109,9 +109,7 @@ class RecordingSource final : public ScanSource {
   std::optional<std::size_t> size() const override { return info_.sweeps; }
   std::size_t current_index() const override { return current_; }
 
-  std::string current_name() const override {
-    return file_.string() + ", message " + std::to_string(current_ + 1) + " of " + topic_.name;
-  }
+  std::string current_name() const override { return file_.string() + ", " + current_part(); }
 
   SourceInfo info() const override {
     SourceInfo info = info_;
@@ -154,11 +152,7 @@ class RecordingSource final : public ScanSource {
         // Reported when it is reached.
       }
       if (!cloud.stamp_ns) continue;
-      if (sensor_.empty()) {
-        sensor_ = cloud.sensor;
-        info_.frame_id = cloud.frame_id;
-      }
-      if (cloud.sensor != sensor_) continue;
+      if (!is_of_the_sensor(cloud)) continue;
       stamps.push_back(*cloud.stamp_ns);
       received.push_back(received_ns);
       if (!cloud.cloud.times) continue;
@@ -179,6 +173,8 @@ class RecordingSource final : public ScanSource {
     timing_->promise(promised, ends);
   }
 
+  std::string current_part() const { return "message " + std::to_string(current_ + 1) + " of " + topic_.name; }
+
   std::int64_t stamp_of(const RecordedMessage& message, std::int64_t header_ns) const {
     if (!unstamped_) return header_ns;
     if (!info_.stamps_assumed) return message.received_ns;
@@ -187,10 +183,9 @@ class RecordingSource final : public ScanSource {
 
   Sweep decode(const RecordedMessage& message) {
     file_ = message.file;
-    const std::string part = "message " + std::to_string(current_ + 1) + " of " + topic_.name;
     CloudMessage cloud;
-    parse_cloud(message, topic_, options_.time_field, part, cloud);
-    check_sensor(cloud, part);
+    parse_cloud(message, topic_, options_.time_field, current_part(), cloud);
+    check_sensor(cloud);
     RawCloud& columns = cloud.cloud;
     Sweep sweep;
     sweep.stamp_ns = stamp_of(message, *cloud.stamp_ns);
@@ -202,14 +197,20 @@ class RecordingSource final : public ScanSource {
     return sweep;
   }
 
-  // The sweeps of one sensor do not fit the map of another.
-  void check_sensor(const CloudMessage& cloud, const std::string& part) {
+  // The first one decides.
+  bool is_of_the_sensor(const CloudMessage& cloud) {
     if (sensor_.empty()) {
       sensor_ = cloud.sensor;
       info_.frame_id = cloud.frame_id;
     }
-    if (cloud.sensor == sensor_) return;
-    throw IoError({file_, part, "points of " + cloud.sensor + " after some of " + sensor_, "one sensor in a topic",
+    return cloud.sensor == sensor_;
+  }
+
+  // The sweeps of one sensor do not fit the map of another.
+  void check_sensor(const CloudMessage& cloud) {
+    if (is_of_the_sensor(cloud)) return;
+    throw IoError({file_, current_part(), "points of " + cloud.sensor + " after some of " + sensor_,
+                   "one sensor in a topic",
                    "Record each sensor on a topic of its own; where bad sweeps are skipped, the first one's are used"});
   }
 
@@ -243,7 +244,7 @@ std::string frame_of(Recording& recording, const RecordedTopic& topic) {
   try {
     if (const auto message = recording.next()) parse_cloud(*message, topic, "", "", cloud);
   } catch (const IoError&) {
-    return cloud.frame_id;
+    // Its frame may be read all the same.
   }
   return cloud.frame_id;
 }

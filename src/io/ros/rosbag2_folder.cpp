@@ -88,13 +88,6 @@ std::vector<fs::path> storage_in(const fs::path& folder) {
   return files;
 }
 
-// Where the recorder was killed there is no metadata.yaml: the files are taken as they are.
-std::vector<fs::path> files_without_metadata(const fs::path& folder) {
-  std::vector<fs::path> files = storage_in(folder);
-  if (files.empty()) reject(folder, "", "no .db3 and no .mcap", "the files of a rosbag2");
-  return files;
-}
-
 std::unique_ptr<Recording> open_storage(const fs::path& file) {
   return has_suffix(file, ".mcap") ? open_mcap(file) : open_db3(file);
 }
@@ -160,7 +153,9 @@ std::unique_ptr<Recording> open_rosbag2_folder(const fs::path& folder) {
   if (path_exists(file)) {
     metadata = parse_metadata(folder, file);
   } else {
-    metadata.files = files_without_metadata(folder);
+    // Where the recorder was killed: the files are taken as they are.
+    metadata.files = storage_in(folder);
+    if (metadata.files.empty()) reject(folder, "", "no .db3 and no .mcap", "the files of a rosbag2");
   }
   auto recording = open_in_turn(std::move(metadata.files), open_maybe_packed);
   if (metadata.messages_compressed) return std::make_unique<PackedMessages>(std::move(recording));

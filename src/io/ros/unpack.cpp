@@ -35,33 +35,10 @@ struct Lz4Free {
   void operator()(LZ4F_dctx* context) const { LZ4F_freeDecompressionContext(context); }
 };
 
-}  // namespace
-
-void unpack_zstd(std::string_view packed, std::size_t limit, const BytesOrigin& origin, std::vector<char>& out) {
-  const std::unique_ptr<ZSTD_DCtx, ZstdFree> context(ZSTD_createDCtx());
-  out.resize(std::min(limit, std::max(kFirstStep, packed.size())));
-  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
-  std::size_t used = 0;
-  std::size_t wanted = packed.empty() ? 0 : 1;
-  while (in.pos < in.size || wanted != 0) {
-    const bool room = grow(out, used, limit);
-    ZSTD_outBuffer to{out.data(), out.size(), used};
-    const std::size_t before = in.pos;
-    wanted = ZSTD_decompressStream(context.get(), &to, &in);
-    if (ZSTD_isError(wanted) != 0) fail(origin, "zstd", ZSTD_getErrorName(wanted));
-    const bool moved = in.pos != before || to.pos != used;
-    used = to.pos;
-    if (moved) continue;
-    if (!room) fail(origin, "zstd", "more than " + std::to_string(limit) + " bytes come out");
-    if (in.pos == in.size) fail(origin, "zstd", "it ends too early");
-  }
-  out.resize(used);
-}
-
-void unpack_lz4(std::string_view packed, std::size_t limit, const BytesOrigin& origin, std::vector<char>& out) {
-  LZ4F_dctx* raw = nullptr;
-  if (LZ4F_isError(LZ4F_createDecompressionContext(&raw, LZ4F_VERSION)) != 0) throw std::bad_alloc();
-  const std::unique_ptr<LZ4F_dctx, Lz4Free> context(raw);
+// `step` takes what it can of `taken` bytes into at most `written` and sets both to what it did; 0: the frame is whole.
+template <typename Step>
+void unpack(const char* kind, std::string_view packed, std::size_t limit, const BytesOrigin& origin,
+            std::vector<char>& out, Step&& step) {
   out.resize(std::min(limit, std::max(kFirstStep, packed.size())));
   std::size_t place = 0;
   std::size_t used = 0;
@@ -70,15 +47,40 @@ void unpack_lz4(std::string_view packed, std::size_t limit, const BytesOrigin& o
     const bool room = grow(out, used, limit);
     std::size_t written = out.size() - used;
     std::size_t taken = packed.size() - place;
-    wanted = LZ4F_decompress(context.get(), out.data() + used, &written, packed.data() + place, &taken, nullptr);
-    if (LZ4F_isError(wanted) != 0) fail(origin, "lz4", LZ4F_getErrorName(wanted));
+    wanted = step(out.data() + used, written, packed.data() + place, taken);
     used += written;
     place += taken;
     if (written > 0 || taken > 0) continue;
-    if (!room) fail(origin, "lz4", "more than " + std::to_string(limit) + " bytes come out");
-    if (place == packed.size()) fail(origin, "lz4", "it ends too early");
+    if (!room) fail(origin, kind, "more than " + std::to_string(limit) + " bytes come out");
+    if (place == packed.size()) fail(origin, kind, "it ends too early");
   }
   out.resize(used);
+}
+
+}  // namespace
+
+void unpack_zstd(std::string_view packed, std::size_t limit, const BytesOrigin& origin, std::vector<char>& out) {
+  const std::unique_ptr<ZSTD_DCtx, ZstdFree> context(ZSTD_createDCtx());
+  unpack("zstd", packed, limit, origin, out, [&](char* to, std::size_t& written, const char* from, std::size_t& taken) {
+    ZSTD_inBuffer in{from, taken, 0};
+    ZSTD_outBuffer piece{to, written, 0};
+    const std::size_t wanted = ZSTD_decompressStream(context.get(), &piece, &in);
+    if (ZSTD_isError(wanted) != 0) fail(origin, "zstd", ZSTD_getErrorName(wanted));
+    written = piece.pos;
+    taken = in.pos;
+    return wanted;
+  });
+}
+
+void unpack_lz4(std::string_view packed, std::size_t limit, const BytesOrigin& origin, std::vector<char>& out) {
+  LZ4F_dctx* raw = nullptr;
+  if (LZ4F_isError(LZ4F_createDecompressionContext(&raw, LZ4F_VERSION)) != 0) throw std::bad_alloc();
+  const std::unique_ptr<LZ4F_dctx, Lz4Free> context(raw);
+  unpack("lz4", packed, limit, origin, out, [&](char* to, std::size_t& written, const char* from, std::size_t& taken) {
+    const std::size_t wanted = LZ4F_decompress(context.get(), to, &written, from, &taken, nullptr);
+    if (LZ4F_isError(wanted) != 0) fail(origin, "lz4", LZ4F_getErrorName(wanted));
+    return wanted;
+  });
 }
 
 void unpack_zstd_file(const std::filesystem::path& packed, const std::filesystem::path& to) {

@@ -39,11 +39,10 @@ class StampOrder final : public WrappedSource {
 
   SourceInfo info() const override {
     SourceInfo info = inner_->info();
-    const std::size_t late = info.faults.late;
-    const double most_late_s = info.faults.most_late_s;
-    info.faults = faults_;
-    info.faults.late = late;
-    info.faults.most_late_s = most_late_s;
+    StampFaults faults = faults_;
+    faults.late = info.faults.late;  // what only a recording shows
+    faults.most_late_s = info.faults.most_late_s;
+    info.faults = faults;
     info.warnings.insert(info.warnings.end(), warnings_.begin(), warnings_.end());
     return info;
   }

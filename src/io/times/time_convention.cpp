@@ -1,5 +1,6 @@
 #include "io/times/time_convention.hpp"
 
+#include <array>
 #include <limits>
 
 #include <fmt/format.h>
@@ -95,20 +96,9 @@ void check_told_unit(const TimeField& field, PointTimeUnit told, const std::opti
 }  // namespace
 
 double seconds_per(PointTimeUnit unit, double period_s) {
-  switch (unit) {
-    case PointTimeUnit::kMilliseconds:
-      return 1e-3;
-    case PointTimeUnit::kMicroseconds:
-      return 1e-6;
-    case PointTimeUnit::kNanoseconds:
-      return 1e-9;
-    case PointTimeUnit::kFraction:
-      return period_s;
-    case PointTimeUnit::kInfer:
-    case PointTimeUnit::kSeconds:
-      break;
-  }
-  return 1;
+  constexpr std::array<double, 5> kSeconds{1, 1, 1e-3, 1e-6, 1e-9};  // kInfer … kNanoseconds
+  static_assert(static_cast<std::size_t>(PointTimeUnit::kFraction) == kSeconds.size());
+  return unit == PointTimeUnit::kFraction ? period_s : kSeconds[static_cast<std::size_t>(unit)];
 }
 
 PointTimeUnit unit_of(const TimeField& bulk, const PointTimeHints& hints) {

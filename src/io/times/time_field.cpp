@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/clouds/measured_point.hpp"
+#include "io/stamp_difference.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -15,12 +16,6 @@ namespace {
 constexpr double kEnds = 0.02;
 // A sweep holds up to 450° (see order_times.cpp).
 constexpr double kMostSwept = 1.25;
-
-double difference(std::int64_t a, std::int64_t b) {
-  std::int64_t exact = 0;
-  if (!__builtin_sub_overflow(a, b, &exact)) return static_cast<double>(exact);
-  return static_cast<double>(a) - static_cast<double>(b);
-}
 
 }  // namespace
 
@@ -90,7 +85,8 @@ bool TimeField::holds(std::size_t i) const {
 }
 
 double TimeField::apart(std::size_t a, std::size_t b) const {
-  return floating_ ? raw_.floats[a] - raw_.floats[b] : difference(raw_.integers[a], raw_.integers[b]);
+  if (floating_) return raw_.floats[a] - raw_.floats[b];
+  return static_cast<double>(stamp_difference(raw_.integers[a], raw_.integers[b]));
 }
 
 void TimeField::reject(const std::string& why, const std::string& remedy) const {

@@ -54,6 +54,17 @@ TEST(FolderSourceTest, PlyFolderWithTimesInTheData) {
   EXPECT_EQ(source->info().point_times, "field time (float32), s since the sweep's stamp");
 }
 
+TEST(FolderSourceTest, PlyListsAreNoFields) {
+  const TempDir folder;
+  folder.write("0.ply",
+               "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+               "property list uchar float time\nend_header\n1 2 3 1 0.5\n");
+  const auto source = open_scan_source(folder.path(), without_reading_ahead());
+  EXPECT_FALSE(source->info().has_point_times);
+  EXPECT_FALSE(source->info().fields.at(3).used);
+  EXPECT_TRUE(source->next()->times_s.empty());
+}
+
 TEST(FolderSourceTest, BinFieldsWithTime) {
   const TempDir folder;
   folder.write("0.bin", bytes_of<float>({1, 2, 3, 0, 4, 5, 6, 0.1F}));

@@ -99,16 +99,18 @@ TEST(LivoxTest, CutOffAtEveryByte) {
   for (const bool ros1 : {true, false}) {
     const std::string whole = livox_message(ros1, 0);
     const auto encoding = ros1 ? MessageEncoding::kRos1 : MessageEncoding::kCdr;
-    EXPECT_EQ(detail::parse_livox(whole, encoding, "l.bag", "").cloud.points.size(), kPoints);
+    EXPECT_EQ(detail::parse_livox(whole, encoding, {"l.bag"}).cloud.points.size(), kPoints);
     expect_refused_cuts(whole,
-                        [&](const std::string& cut) { detail::parse_livox(cut, encoding, "l.bag", "message 1 of /l"); },
+                        [&](const std::string& cut) {
+                          detail::parse_livox(cut, encoding, {"l.bag", "message 1 of /l"});
+                        },
                         {"l.bag", "message 1 of /l", "byte"});
   }
 }
 
 TEST(LivoxTest, HostileBytes) {
   expect_io_error(
-      [] { detail::parse_livox(livox_message(false, 0, 4'000'000'000U), MessageEncoding::kCdr, "l.mcap", ""); },
+      [] { detail::parse_livox(livox_message(false, 0, 4'000'000'000U), MessageEncoding::kCdr, {"l.mcap"}); },
       {"l.mcap", "4000000000 points", "is not a Livox CustomMsg"});
   std::mt19937 random(11);
   for (int round = 0; round < 3000; ++round) {
@@ -116,8 +118,7 @@ TEST(LivoxTest, HostileBytes) {
     std::string bytes = livox_message(ros1, 0);
     for (int k = 0; k < 3; ++k) bytes[random() % 60] = static_cast<char>(random());
     const auto encoding = ros1 ? MessageEncoding::kRos1 : MessageEncoding::kCdr;
-    reads_or_refuses(
-        [&] { EXPECT_LE(detail::parse_livox(bytes, encoding, "l.bag", "").cloud.points.size(), kPoints); });
+    reads_or_refuses([&] { EXPECT_LE(detail::parse_livox(bytes, encoding, {"l.bag"}).cloud.points.size(), kPoints); });
   }
 }
 

@@ -193,15 +193,19 @@ TEST(PacketTopicsTest, CutOffAtEveryByte) {
   for (const bool ros1 : {true, false}) {
     const auto encoding = ros1 ? MessageEncoding::kRos1 : MessageEncoding::kCdr;
     const std::string scan = velodyne_scans(ros1).back().bytes;  // of 6 packets
-    EXPECT_EQ(detail::parse_velodyne_scan(scan, encoding, "v", "").packets.size(), 6U);
-    expect_refused_cuts(
-        scan, [&](const std::string& cut) { detail::parse_velodyne_scan(cut, encoding, "v.bag", "message 1"); },
-        {"v.bag", "message 1", "byte"});
+    EXPECT_EQ(detail::parse_velodyne_scan(scan, encoding, {"v"}).packets.size(), 6U);
+    expect_refused_cuts(scan,
+                        [&](const std::string& cut) {
+                          detail::parse_velodyne_scan(cut, encoding, {"v.bag", "message 1"});
+                        },
+                        {"v.bag", "message 1", "byte"});
     const std::string packet = packet_message(ros1, "packet");
-    EXPECT_EQ(detail::parse_ouster_packet(packet, encoding, "o", ""), "packet");
-    expect_refused_cuts(
-        packet, [&](const std::string& cut) { detail::parse_ouster_packet(cut, encoding, "o.bag", "message 1"); },
-        {"o.bag", "message 1", "byte"});
+    EXPECT_EQ(detail::parse_ouster_packet(packet, encoding, {"o"}), "packet");
+    expect_refused_cuts(packet,
+                        [&](const std::string& cut) {
+                          detail::parse_ouster_packet(cut, encoding, {"o.bag", "message 1"});
+                        },
+                        {"o.bag", "message 1", "byte"});
   }
 }
 

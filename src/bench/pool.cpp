@@ -165,8 +165,12 @@ class Pool {
 
 CellRecord failed_record(const BenchJob& job, const CellFolder& folder, std::size_t attempts, const std::string& error,
                          ExitCode code) {
-  const BenchConfiguration& configuration = job.configuration;
-  const BenchCell cell{job.sequence.name, configuration.name, false, configuration.settings, {}, {}, error, code};
+  BenchCell cell;
+  cell.sequence = job.sequence.name;
+  cell.configuration = job.configuration.name;
+  cell.settings = job.configuration.settings;
+  cell.error = error;
+  cell.error_code = code;
   CellRecord record{{cell}, attempts, folder.log_name(job), host_name()};
   guard_writing([&] { folder.write(job, record); });
   return record;

@@ -180,14 +180,13 @@ class BenchRunner {
     for (const BenchJob& job : jobs_) {
       if (!peers_done.insert(job.sequence.name).second) continue;
       for (const BenchPeer& peer : job.sequence.peers) {
-        const BenchCell cell{job.sequence.name,
-                             peer.name,
-                             true,
-                             {peer.poses.string()},
-                             {},
-                             {},
-                             "no configuration could be run on this sequence",
-                             kBadData};
+        BenchCell cell;
+        cell.sequence = job.sequence.name;
+        cell.configuration = peer.name;
+        cell.peer = true;
+        cell.settings = {peer.poses.string()};
+        cell.error = "no configuration could be run on this sequence";
+        cell.error_code = kBadData;
         store.cells.push_back({cell, job.key, 1, ""});
       }
     }

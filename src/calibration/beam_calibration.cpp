@@ -115,17 +115,12 @@ void BeamCalibration::apply_differences() {
   }
 }
 
-std::vector<Beam> BeamCalibration::in_use() const {
-  std::vector<Beam> beams = in_order_;
-  std::copy_if(known_.begin(), known_.end(), std::back_inserter(beams),
-               [&](Beam b) { return !(beams_[b].points > 0.0); });
-  sort_by_elevation(beams);
-  return beams;
-}
-
 std::vector<BeamCorrection> BeamCalibration::corrections(double offset_rad) const {
+  std::vector<Beam> beams = in_order_;
+  std::copy_if(known_.begin(), known_.end(), std::back_inserter(beams), [&](Beam b) { return unseen(b); });
+  sort_by_elevation(beams);
   std::vector<BeamCorrection> all;
-  for (const Beam b : in_use()) {
+  for (const Beam b : beams) {
     const Eigen::Vector2d add = angles_.of(b).cast<double>();
     all.push_back({b, std::atan(beams_[b].tangent) - add.x() - offset_rad, add.x(), add.y()});
   }
@@ -143,12 +138,17 @@ void BeamCalibration::begin_with(const std::vector<BeamCorrection>& known, doubl
 }
 
 Eigen::Vector2d BeamCalibration::rms_rad() const {
-  const std::vector<Beam> beams = in_use();
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
-  for (const Beam b : beams) {
+  double count = 0.0;
+  const auto add = [&](Beam b) {
     squares += angles_.of(b).cast<double>().cwiseAbs2();
+    count += 1.0;
+  };
+  std::for_each(in_order_.begin(), in_order_.end(), add);
+  for (const Beam b : known_) {
+    if (unseen(b)) add(b);
   }
-  return (squares / std::max(1.0, static_cast<double>(beams.size()))).cwiseSqrt();
+  return (squares / std::max(1.0, count)).cwiseSqrt();
 }
 
 }  // namespace rilo

@@ -61,8 +61,8 @@ class BeamCalibration {
   void find_steps();
   void apply_differences();
   void sort_by_elevation(std::vector<Beam>& beams) const;
-  /// Those that the sweeps have shown, and those known before, by elevation.
-  std::vector<Beam> in_use() const;
+  /// No sweep has shown it.
+  bool unseen(Beam beam) const { return !(beams_[beam].points > 0.0); }
 
   BeamCalibrationConfig config_;
   BeamAngles angles_;

@@ -55,10 +55,15 @@ SE3 last_pose(Odometry& odometry, const std::vector<Sweep>& sweeps) {
   return pose;
 }
 
+/// What a run with `sweeps` has learnt.
+SensorAngles learnt_from(const std::vector<Sweep>& sweeps) {
+  Odometry odometry(quick());
+  last_pose(odometry, sweeps);
+  return odometry.sensor_angles();
+}
+
 TEST(KnownSensor, AnotherRunBeginsWithWhatWasLearnt) {
-  Odometry first(quick());
-  last_pose(first, drive(6.0, 15));
-  const SensorAngles learnt = first.sensor_angles();
+  const SensorAngles learnt = learnt_from(drive(6.0, 15));
   ASSERT_EQ(learnt.beams.size(), 64U);
   double largest = 0;
   for (const BeamCorrection& beam : learnt.beams) largest = std::max(largest, std::abs(beam.add_elevation_rad));
@@ -89,9 +94,7 @@ TEST(KnownSensor, StartingOverIsStartingWithWhatWasLearnt) {
 
 TEST(KnownSensor, AResetGoesBackToWhatWasGiven) {
   const std::vector<Sweep> sweeps = drive(6.0, 6);
-  Odometry learning(quick());
-  last_pose(learning, sweeps);
-  SensorAngles known = learning.sensor_angles();
+  SensorAngles known = learnt_from(sweeps);
   known.elevation_offset_rad = 0.2 * kRadPerDeg;
   Odometry odometry(quick());
   odometry.start_with(known);
@@ -105,10 +108,8 @@ TEST(KnownSensor, AResetGoesBackToWhatWasGiven) {
 }
 
 TEST(KnownSensor, AnotherSensorIsAnErrorAndNothingIsRegistered) {
-  Odometry os1(quick());
-  last_pose(os1, drive(6.0, 5));
   Odometry odometry(quick());
-  odometry.start_with(os1.sensor_angles());
+  odometry.start_with(learnt_from(drive(6.0, 5)));
   const std::vector<Sweep> others = drive(6.0, 1, SensorKind::kVlp16);
   for (int time = 0; time < 2; ++time) {  // not only the first sweep
     try {
@@ -124,19 +125,15 @@ TEST(KnownSensor, AnotherSensorIsAnErrorAndNothingIsRegistered) {
 }
 
 TEST(KnownSensor, SweepsWithoutPointsSayNothing) {
-  Odometry os1(quick());
-  last_pose(os1, drive(6.0, 5));
   Odometry odometry(quick());
-  odometry.start_with(os1.sensor_angles());
+  odometry.start_with(learnt_from(drive(6.0, 5)));
   EXPECT_EQ(odometry.register_sweep(Sweep{}).status, OdometryStatus::kEmpty);
   EXPECT_THROW(odometry.register_sweep(drive(6.0, 1, SensorKind::kVlp16)[0]), std::invalid_argument);
 }
 
 TEST(KnownSensor, AFragmentOfASweepSaysNothing) {
-  Odometry os1(quick());
-  last_pose(os1, drive(6.0, 5));
   Odometry odometry(quick());
-  odometry.start_with(os1.sensor_angles());
+  odometry.start_with(learnt_from(drive(6.0, 5)));
   const std::vector<Sweep> others = drive(6.0, 2, SensorKind::kVlp16);
   Sweep fragment = others[0];  // a recording begins within a sweep
   fragment.points.resize(50);
@@ -147,9 +144,7 @@ TEST(KnownSensor, AFragmentOfASweepSaysNothing) {
 }
 
 TEST(KnownSensor, BeamsThatSawNothingStayAsTheyWere) {
-  Odometry first(quick());
-  last_pose(first, drive(6.0, 6));
-  const SensorAngles learnt = first.sensor_angles();
+  const SensorAngles learnt = learnt_from(drive(6.0, 6));
   ASSERT_EQ(learnt.beams.size(), 64U);
   std::vector<Sweep> sweeps = drive(20.0, 4);
   for (Sweep& sweep : sweeps) {
@@ -176,13 +171,10 @@ TEST(KnownSensor, BeamsThatSawNothingStayAsTheyWere) {
 
 TEST(KnownSensor, BeamsThatAreSwitchedOffStayOff) {
   const std::vector<Sweep> sweeps = drive(6.0, 6);
-  Odometry first(quick());
-  last_pose(first, sweeps);
-  SensorAngles learnt = first.sensor_angles();
   OdometryConfig off = quick();
   off.beams.enabled = false;
   Odometry known(off);
-  known.start_with(learnt);
+  known.start_with(learnt_from(sweeps));
   const SweepStats stats = known.register_sweep(sweeps[0]).stats;
   EXPECT_EQ(stats.beam_elevation_rms_rad, 0.0) << "what is applied, not what is known";
   EXPECT_TRUE(known.sensor_angles().beams.empty());

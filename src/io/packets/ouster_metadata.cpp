@@ -21,7 +21,7 @@ struct ProfileRow {
   const char* name = "";
   OusterLayout layout;
 };
-// In the order of OusterProfile.
+// In the order of OusterProfile; numbers in the order of OusterLayout.
 constexpr std::array<ProfileRow, 4> kProfiles{
     {{"LEGACY", {0, 16, 4, 12, 0, 0xFFFFF, 1, 4, true}},
      {"RNG15_RFL8_NIR8", {32, 12, 0, 4, 32, 0x7FFF, 8, 2, false}},

@@ -9,6 +9,7 @@
 #include "cloud/beam_index.hpp"
 #include "geometry/degrees.hpp"
 
+#include "cloud/measured_point.hpp"
 namespace rilo {
 
 namespace {
@@ -28,7 +29,7 @@ std::vector<SeenBeam> beams_of(const SweepView& sweep) {
   std::vector<SeenBeam> seen(kBeams);
   for (std::size_t i = 0; i < index.size(); ++i) {
     const Eigen::Vector3d p = sweep.points[i].cast<double>();
-    if (index[i] >= kBeams || !p.allFinite() || p.isZero(0.0)) continue;
+    if (index[i] >= kBeams || !detail::is_measured(sweep.points[i])) continue;
     SeenBeam& beam = seen[index[i]];
     ++beam.points;
     const double elevation_rad = std::atan2(p.z(), p.head<2>().norm());

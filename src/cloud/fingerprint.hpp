@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "cloud/measured_point.hpp"
+
 namespace rilo {
 
 /// Number of points and some of those that were measured: those of another sweep never have the same bits. Without any
@@ -17,7 +19,7 @@ class Fingerprint {
   Fingerprint() = default;
   explicit Fingerprint(std::span<const Eigen::Vector3f> points) : size_(points.size()) {
     for (std::size_t i = 0; i < points.size(); i += kStride) {
-      if (points[i].allFinite() && !points[i].isZero(0.0F)) {
+      if (detail::is_measured(points[i])) {
         sample_.push_back(points[i]);
       }
     }

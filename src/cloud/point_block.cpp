@@ -1,8 +1,8 @@
 #include "cloud/point_block.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "cloud/measured_point.hpp"
 #include "geometry/voxel_key.hpp"
 #include "geometry/wide.hpp"
 
@@ -39,7 +39,7 @@ RILO_WIDE void find_in_range(const PointBlock& p, float min2, float max2, const 
   for (std::size_t i = 0; i < kSize; ++i) {
     // A NaN or infinite number makes a comparison false.
     const float range2 = p.x[i] * p.x[i] + (p.y[i] * p.y[i] + p.z[i] * p.z[i]);
-    const bool timed = std::abs(times_s[i]) <= std::numeric_limits<float>::max();
+    const bool timed = std::abs(times_s[i]) <= detail::kFarthestFromStampS;
     in_range[i] = static_cast<int>(range2 >= min2) & static_cast<int>(range2 <= max2) & static_cast<int>(timed);
   }
 }

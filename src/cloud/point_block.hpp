@@ -74,8 +74,8 @@ void for_each_block(std::size_t first, std::size_t last, const Use& use) {
   }
 }
 
-/// Whether the squared range lies within [min2, max2] (m²) and the time is finite: 0 or 1. False for coordinates that
-/// are not finite.
+/// Whether the squared range lies within [min2, max2] (m²) and the time is one of a sweep: 0 or 1. False for
+/// coordinates that are not finite.
 void find_in_range(const PointBlock& p, float min2, float max2, const PointBlock::Lanes<float>& times_s,
                    PointBlock::Lanes<int>& in_range);
 

@@ -9,6 +9,7 @@
 
 #include "cloud/elevation.hpp"
 #include "cloud/fixed_chunks.hpp"
+#include "cloud/measured_point.hpp"
 #include "cloud/point_block.hpp"
 #include "geometry/median.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::size_t kBeamSample = 4000;  // points: enough for 128 beams at little cost
 constexpr std::size_t kPhaseStep = 7;      // prime: the samples of successive sweeps differ
+constexpr std::size_t kTimeSample = 100;   // points: a unit is wrong for nearly all of them
 constexpr double kMostGrowth = 1.15;       // of the voxel in a sweep: its number of points changes by a third
 constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz
 
@@ -51,10 +53,29 @@ std::size_t keep(std::span<const std::uint8_t> valid, const At& at, T* to) {
   return static_cast<std::size_t>(to - first);
 }
 
+/// Whether the times are in another unit than seconds, or of a clock: most of a sample of them are none of a sweep. The
+/// few that are would make a sweep of a few degrees.
+bool is_mistimed(const SweepView& sweep) {
+  if (sweep.times_s.size() != sweep.points.size()) {
+    return false;
+  }
+  std::size_t right = 0;
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < sweep.times_s.size(); i += sweep.times_s.size() / kTimeSample + 1) {
+    if (!std::isfinite(sweep.times_s[i]) || !detail::is_measured(sweep.points[i])) {
+      continue;
+    }
+    ++(std::abs(sweep.times_s[i]) <= detail::kFarthestFromStampS ? right : wrong);
+  }
+  return wrong > right;
+}
+
 }  // namespace
 
 const PreparedSweep& Preprocessor::prepare(const SweepView& sweep) {
-  crop(sweep);
+  SweepView nothing;
+  nothing.stamp_ns = sweep.stamp_ns;
+  crop(config_.deskew && is_mistimed(sweep) ? nothing : sweep);
   prepared_.valid_points = cropped_.size();
   sample_beams();
   // A sweep without points gives no scale: the next one is still the first.

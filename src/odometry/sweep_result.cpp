@@ -1,23 +1,25 @@
 #include "rilo/odometry/sweep_result.hpp"
 
+#include <array>
+#include <cstddef>
+
 namespace rilo {
 
+namespace {
+
+// In the order of the values.
+template <typename Enum, std::size_t N>
+std::string_view word_of(Enum value, const std::array<std::string_view, N>& names) {
+  const auto i = static_cast<std::size_t>(value);
+  return i < N ? names[i] : "unknown";
+}
+
+}  // namespace
+
 std::string_view to_string(OdometryStatus status) {
-  switch (status) {
-    case OdometryStatus::kOk:
-      return "ok";
-    case OdometryStatus::kInitialising:
-      return "initialising";
-    case OdometryStatus::kDegenerate:
-      return "degenerate";
-    case OdometryStatus::kLost:
-      return "lost";
-    case OdometryStatus::kRecovered:
-      return "recovered";
-    case OdometryStatus::kEmpty:
-      return "empty";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, kStatusCount> kNames = {"ok",   "initialising", "degenerate",
+                                                                 "lost", "recovered",    "empty"};
+  return word_of(status, kNames);
 }
 
 bool belongs_in_map(OdometryStatus status, bool timed) {
@@ -33,49 +35,20 @@ bool belongs_in_map(OdometryStatus status, bool timed) {
 }
 
 std::string_view to_string(InitialPoseSource source) {
-  switch (source) {
-    case InitialPoseSource::kIdentity:
-      return "identity";
-    case InitialPoseSource::kPrediction:
-      return "prediction";
-    case InitialPoseSource::kCoarse:
-      return "coarse";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 3> kNames = {"identity", "prediction", "coarse"};
+  return word_of(source, kNames);
 }
 
 std::string_view to_string(PoseInstant instant) {
-  switch (instant) {
-    case PoseInstant::kStart:
-      return "start";
-    case PoseInstant::kMid:
-      return "mid";
-    case PoseInstant::kEnd:
-      return "end";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 3> kNames = {"start", "mid", "end"};
+  return word_of(instant, kNames);
 }
 
 std::string_view to_string(InitialPoseReason reason) {
-  switch (reason) {
-    case InitialPoseReason::kFirstSweep:
-      return "first_sweep";
-    case InitialPoseReason::kCoarseDisabled:
-      return "coarse_disabled";
-    case InitialPoseReason::kCoarseNotNeeded:
-      return "coarse_not_needed";
-    case InitialPoseReason::kWithinTau:
-      return "within_tau";
-    case InitialPoseReason::kBeyondTau:
-      return "beyond_tau";
-    case InitialPoseReason::kBetterMapScore:
-      return "better_map_score";
-    case InitialPoseReason::kWorseMapScore:
-      return "worse_map_score";
-    case InitialPoseReason::kNoTime:
-      return "no_time";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, 8> kNames = {"first_sweep",     "coarse_disabled", "coarse_not_needed",
+                                                      "within_tau",      "beyond_tau",      "better_map_score",
+                                                      "worse_map_score", "no_time"};
+  return word_of(reason, kNames);
 }
 
 }  // namespace rilo

@@ -63,10 +63,13 @@ TEST(PointBlock, RangeAndTimesThatAreNumbers) {
   p[4] = {3.0F, 0.0F, -kInfinite};
   times[5] = kNotANumber;
   times[6] = -kInfinite;
+  times[7] = 2.6F;
+  times[8] = -2.6F;
+  times[9] = 2.4F;
   PointBlock::Lanes<int> in_range{};
   find_in_range(block_of(p), 1.0F, 25.0F, times, in_range);
   for (std::size_t i = 0; i < kSize; ++i) {
-    EXPECT_EQ(in_range[i], i >= 1 && i <= 6 ? 0 : 1) << i;
+    EXPECT_EQ(in_range[i], i >= 1 && i <= 8 ? 0 : 1) << i;
   }
 }
 

@@ -169,5 +169,26 @@ TEST(Faults, ForeignSweepAndHalfASweep) {
   EXPECT_EQ(wrong_poses(sweeps), 0U);
 }
 
+TEST(Faults, TimesInAnotherUnitLeaveNothing) {
+  for (const float factor : {1e3F, 1e6F, 1e9F}) {
+    Odometry odometry({});
+    for (const std::size_t i : {0U, 1U, 2U}) {
+      Sweep sweep = drive()[i].sweep;
+      for (float& time : sweep.times_s) {
+        time *= factor;
+      }
+      EXPECT_EQ(odometry.register_sweep(sweep).status, OdometryStatus::kEmpty) << factor;
+    }
+  }
+}
+
+TEST(Faults, SingleTimesThatAreNoneOfTheSweep) {
+  std::vector<Recorded> sweeps = drive();
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    sweeps[i].sweep.times_s[100 * i] = 1e5F;
+  }
+  EXPECT_EQ(wrong_poses(sweeps), 0U);
+}
+
 }  // namespace
 }  // namespace rilo

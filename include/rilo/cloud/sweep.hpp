@@ -14,9 +14,11 @@ namespace rilo {
 struct Sweep {
   std::int64_t stamp_ns = 0;            ///< the time that `times_s` counts from
   std::vector<Eigen::Vector3f> points;  ///< m
-  std::vector<float> times_s;           ///< s relative to stamp_ns; empty: no times, or already motion-compensated
-  std::vector<float> intensities;       ///< sensor units
-  std::vector<std::uint16_t> rings;     ///< beam index
+  /// s relative to stamp_ns; empty: no times, or already motion-compensated. Points farther than 2.5 s from it are not
+  /// used; when most are, times are in another unit, and the sweep counts as empty.
+  std::vector<float> times_s;
+  std::vector<float> intensities;    ///< sensor units
+  std::vector<std::uint16_t> rings;  ///< beam index
 };
 
 /// A sweep in memory of another owner, a driver or numpy: nothing is copied. Columns as in Sweep.

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <vector>
 
+#include "cloud/measured_point.hpp"
 #include "io/clouds/cloud_columns.hpp"
-#include "io/clouds/measured_point.hpp"
 #include "io/file_bytes.hpp"
 #include "io/raw_bytes.hpp"
 #include "io/text.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/clouds/measured_point.hpp"
+#include "cloud/measured_point.hpp"
 #include "rilo/io/point_times.hpp"
 
 namespace rilo {

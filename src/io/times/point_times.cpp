@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "io/clouds/measured_point.hpp"
+#include "cloud/measured_point.hpp"
 #include "io/stamp_difference.hpp"
 #include "io/times/time_convention.hpp"
 #include "io/times/time_field.hpp"

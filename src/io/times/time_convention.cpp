@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cloud/measured_point.hpp"
 #include "io/text.hpp"
 
 namespace rilo::detail {
@@ -16,8 +17,7 @@ constexpr double kShortestSweep = 0.01;
 constexpr double kLongestSweep = 0.55;
 // Of a known period: a narrow sector.
 constexpr double kLeastOfPeriod = 0.02;
-// Farther from zero than this (s), times cannot count from the sweep's stamp.
-constexpr double kFarthestFromStamp = 2.5;
+constexpr double kFarthestFromStamp = kFarthestFromStampS;
 // Half of the period, without the ends of the times that the bulk lacks.
 constexpr double kLeastOfFractions = 0.48;
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "io/clouds/measured_point.hpp"
+#include "cloud/measured_point.hpp"
 #include "io/stamp_difference.hpp"
 #include "rilo/io/io_error.hpp"
 

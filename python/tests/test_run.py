@@ -79,8 +79,9 @@ def test_what_a_run_learns_of_the_sensor_is_used_by_others(recording, tmp_path):
         odometry.register(sweep.points, sweep.times_s, sweep.stamp_ns, sweep.rings)
     assert np.array_equal(run.trajectory, same.trajectory) and np.array_equal(run.trajectory, odometry.trajectory)
     assert "beams:" in odometry.calibration()
+    assert any("learnt from this recording" in warning for warning in run.warnings)
 
-    other = rilo.Odometry(calibration="elevation_offset_deg: 0\nbeams: [[3, 80, 0, 0]]")
+    other = rilo.Odometry(calibration="elevation_offset_deg: 0\nbeams: [[3, 80, 0, 0]]\n...")
     sweep = next(iter(rilo.open(recording)))
     with pytest.raises(ValueError, match="of another sensor"):
         other.register(sweep.points, sweep.times_s, sweep.stamp_ns, sweep.rings)

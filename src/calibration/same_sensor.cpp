@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdio>
 #include <optional>
+#include <sstream>
+#include <stdexcept>
 
 #include "cloud/beam_index.hpp"
+#include "cloud/measured_point.hpp"
 #include "geometry/degrees.hpp"
 
-#include "cloud/measured_point.hpp"
 namespace rilo {
 
 namespace {
@@ -28,8 +30,8 @@ std::vector<SeenBeam> beams_of(const SweepView& sweep) {
   BeamIndex().assign(sweep, index);
   std::vector<SeenBeam> seen(kBeams);
   for (std::size_t i = 0; i < index.size(); ++i) {
-    const Eigen::Vector3d p = sweep.points[i].cast<double>();
     if (index[i] >= kBeams || !detail::is_measured(sweep.points[i])) continue;
+    const Eigen::Vector3d p = sweep.points[i].cast<double>();
     SeenBeam& beam = seen[index[i]];
     ++beam.points;
     const double elevation_rad = std::atan2(p.z(), p.head<2>().norm());
@@ -108,5 +110,16 @@ std::optional<std::string> other_sensor(const SensorAngles& known, const SweepVi
   const std::string unknown = unknown_beams(known_rad, seen, lowest_rad, highest_rad);
   return unknown.empty() ? missing_beams(known, seen) : unknown;
 }
+
+void check_reading(const SensorAngles& known, double elevation_correction_deg) {
+  if (known.elevation_correction_deg.value_or(elevation_correction_deg) == elevation_correction_deg) return;
+  std::ostringstream text;
+  text << name_of(known) << ": learnt from data read with an elevation correction of "
+       << *known.elevation_correction_deg << " deg, which its angles come on top of; here it is "
+       << elevation_correction_deg << " deg. Give the same";
+  throw std::invalid_argument(text.str());
+}
+
+std::string name_of(const SensorAngles& known) { return known.name.empty() ? "calibration" : known.name; }
 
 }  // namespace rilo

@@ -21,10 +21,13 @@ namespace {
 using detail::kind_of;
 using detail::position_of;
 
+constexpr const char* kCorrection = "elevation_correction_deg";
+constexpr const char* kRecordings = "recordings";
 constexpr const char* kOffset = "elevation_offset_deg";
 constexpr const char* kEstimate = "elevation_estimate_deg";
 constexpr const char* kSigma = "elevation_sigma_deg";
 constexpr const char* kBeamList = "beams";
+constexpr std::string_view kEnd = "...";  // of a YAML document
 constexpr const char* kExpectedFile = "calibration.yaml as rilo run leaves it among its results";
 constexpr const char* kExpectedBeam = "[beam, elevation, added to elevation, added to azimuth], in degrees";
 // Beyond these a number is a mistake: errors of sensors are tenths of a degree.
@@ -43,7 +46,11 @@ class CalibrationLoader {
     for (const auto& pair : root) {
       const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : kind_of(pair.first);
       if (!keys_.insert(key).second) refuse(pair.first, key + " is given a second time", "each key once");
-      if (key == kOffset) {
+      if (key == kCorrection) {
+        angles.elevation_correction_deg = number(pair.second, kCorrection, -kMostOffsetDeg, kMostOffsetDeg);
+      } else if (key == kRecordings) {
+        angles.recordings = texts(pair.second);
+      } else if (key == kOffset) {
         angles.elevation_offset_rad = kRadPerDeg * number(pair.second, kOffset, -kMostOffsetDeg, kMostOffsetDeg);
       } else if (key == kEstimate) {
         angles.elevation_estimate.rad = kRadPerDeg * number(pair.second, kEstimate, -kMostOffsetDeg, kMostOffsetDeg);
@@ -54,7 +61,8 @@ class CalibrationLoader {
         angles.beams = beams(pair.second);
       } else {
         refuse(pair.first, "unknown key " + detail::quoted(key),
-               fmt::format("{}, {}, {} and {}", kOffset, kEstimate, kSigma, kBeamList));
+               fmt::format("one of {}, {}, {}, {}, {} and {}", kCorrection, kRecordings, kOffset, kEstimate, kSigma,
+                           kBeamList));
       }
     }
     for (const char* key : {kOffset, kBeamList}) {
@@ -78,6 +86,16 @@ class CalibrationLoader {
     const std::optional<double> value = detail::parse_double(text);
     if (!value || !(*value >= least && *value <= most)) refuse(node, name + " is " + detail::quoted(text), expected);
     return *value;
+  }
+
+  std::vector<std::string> texts(const YAML::Node& list) const {
+    if (!list.IsSequence()) refuse(list, std::string(kRecordings) + " is " + kind_of(list), "a list of paths");
+    std::vector<std::string> all;
+    for (const YAML::Node& entry : list) {
+      if (!entry.IsScalar()) refuse(entry, kind_of(entry), "a path");
+      all.push_back(entry.Scalar());
+    }
+    return all;
   }
 
   std::vector<BeamCorrection> beams(const YAML::Node& list) const {
@@ -108,11 +126,33 @@ std::string one_line(std::string text) {
   return text;
 }
 
+std::string in_yaml(const std::string& text) {
+  YAML::Emitter emitter;
+  emitter << YAML::DoubleQuoted << text;
+  return emitter.c_str();
+}
+
+// A list that is cut off between two beams is a list.
+bool is_whole(std::string_view yaml) {
+  std::string_view last;
+  detail::LineScanner lines(yaml);
+  while (const auto line = lines.next()) {
+    if (!detail::trimmed(*line).empty()) last = *line;
+  }
+  return last.starts_with(kEnd);
+}
+
 }  // namespace
 
 SensorAngles parse_calibration(std::string_view yaml, const std::string& name) {
-  return CalibrationLoader(name).load(
+  SensorAngles angles = CalibrationLoader(name).load(
       detail::parse_yaml(yaml, name, "rilo run leaves calibration.yaml among its results"));
+  if (!is_whole(yaml)) {
+    throw ConfigError({name, "", "the end is missing", "a last line " + detail::quoted(std::string(kEnd)),
+                       "It is cut off: copy it again, or let rilo run make a new one"});
+  }
+  angles.name = name;
+  return angles;
 }
 
 SensorAngles load_calibration(const std::filesystem::path& file) {
@@ -123,9 +163,17 @@ SensorAngles load_calibration(const std::filesystem::path& file) {
 std::string dump_calibration(const SensorAngles& angles, const std::string& source) {
   std::string text = fmt::format(
       "# Errors of the sensor's angles, learnt from {}.\n"
-      "# For other recordings of the same sensor, read in the same way: rilo run DATA --calibration FILE\n"
-      "{}: {:.6f}  # to be added to all elevation angles: the estimate, if that is certain\n",
-      one_line(source), kOffset, kDegPerRad * angles.elevation_offset_rad);
+      "# For other recordings of the same sensor, read in the same way: rilo run DATA --calibration FILE\n",
+      one_line(source));
+  if (!angles.recordings.empty()) {
+    text += fmt::format("{}:  # that it was learnt from\n", kRecordings);
+    for (const std::string& recording : angles.recordings) text += "  - " + in_yaml(recording) + "\n";
+  }
+  if (angles.elevation_correction_deg) {
+    text += fmt::format("{}: {}  # that they were read with\n", kCorrection, *angles.elevation_correction_deg);
+  }
+  text += fmt::format("{}: {:.6f}  # to be added to all elevation angles: the estimate, if that is certain\n", kOffset,
+                      kDegPerRad * angles.elevation_offset_rad);
   // Sweeps that say next to nothing may lead beyond what a file is believed.
   const bool believed = std::abs(kDegPerRad * angles.elevation_estimate.rad) <= kMostOffsetDeg;
   if (believed && std::isfinite(angles.elevation_estimate.sigma_rad)) {
@@ -137,12 +185,12 @@ std::string dump_calibration(const SensorAngles& angles, const std::string& sour
   text += fmt::format(
       "{}:  # ring (without rings: range of elevation angles), its elevation, added to elevation and azimuth, deg\n",
       kBeamList);
-  if (angles.beams.empty()) return text + "  []\n";
+  if (angles.beams.empty()) text += "  []\n";
   for (const BeamCorrection& beam : angles.beams) {
     text += fmt::format("  - [{}, {:.4f}, {:.6f}, {:.6f}]\n", beam.beam, kDegPerRad * beam.elevation_rad,
                         kDegPerRad * beam.add_elevation_rad, kDegPerRad * beam.add_azimuth_rad);
   }
-  return text;
+  return text + fmt::format("{}  # without this line it is cut off\n", kEnd);
 }
 
 }  // namespace rilo

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "calibration/same_sensor.hpp"
 #include "config/nearest_word.hpp"
 #include "node/base_frame.hpp"
 #include "rilo/config/calibration_file.hpp"
@@ -178,7 +179,9 @@ NodeOptions node_options(const std::map<std::string, ParameterValue>& given) {
   }
   if (!options.config_file.empty()) options.config = load_config(options.config_file);
   if (!options.calibration_file.empty()) options.calibration = load_calibration(options.calibration_file);
-  return with_parameters(options, given);
+  options = with_parameters(options, given);
+  if (options.calibration) check_reading(*options.calibration, options.source.elevation_correction_deg);
+  return options;
 }
 
 NodeOptions with_parameters(const NodeOptions& options, const std::map<std::string, ParameterValue>& changes) {

@@ -21,6 +21,15 @@ class Odometry::Impl : public Pipeline {
 
   void reset() { Pipeline::reset(known_); }
 
+  SensorAngles sensor_angles() const {
+    SensorAngles angles = Pipeline::sensor_angles();
+    if (known_) {
+      angles.elevation_correction_deg = known_->elevation_correction_deg;
+      angles.recordings = known_->recordings;
+    }
+    return angles;
+  }
+
   void start_with(const SensorAngles& known) {
     known_ = known;
     checked_ = false;
@@ -34,7 +43,8 @@ class Odometry::Impl : public Pipeline {
     const std::optional<std::string> difference = other_sensor(*known_, sweep);
     if (!difference) return;
     if (!difference->empty()) {
-      throw std::invalid_argument("calibration: of another sensor, or of data read in another way: " + *difference +
+      throw std::invalid_argument(name_of(*known_) +
+                                  ": of another sensor, or of data read in another way: " + *difference +
                                   "; expected one that was learnt from this sensor. A run without it leaves one");
     }
     checked_ = true;

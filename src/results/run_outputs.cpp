@@ -52,10 +52,7 @@ void write_calibration(const fs::path& folder, const RunRecord& run) {
     fs::remove(file);
     return;
   }
-  std::string source = fmt::format("{} of {}", counted(run.learnt_from, "sweep"), run.data.string());
-  // Whoever takes the file has to read in the same way.
-  const double correction_deg = run.source.elevation_correction_deg;
-  if (correction_deg != 0.0) source += fmt::format(", read with --elevation-correction {}", correction_deg);
+  const std::string source = fmt::format("{} of {}", counted(run.learnt_from, "sweep"), run.data.string());
   write_atomically(file, dump_calibration(run.learnt, source));
 }
 

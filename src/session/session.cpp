@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "calibration/same_sensor.hpp"
 #include "geometry/degrees.hpp"
 #include "io/sources/source_wrappers.hpp"
 #include "io/text.hpp"
@@ -18,10 +20,23 @@
 
 namespace rilo {
 
+namespace {
+
+std::string absolute_path(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(path, ignored).string();
+}
+
+}  // namespace
+
 class Session::Impl {
  public:
   Impl(OpenSource open, SessionOptions options)
-      : open_(std::move(open)), options_(std::move(options)), source_(open_()), odometry_(new_odometry()) {}
+      : open_(std::move(open)),
+        options_(std::move(options)),
+        source_(open_()),
+        recording_(absolute_path(source_->info().path)),
+        odometry_(new_odometry()) {}
 
   void add(SessionObserver& observer) { observers_.push_back(&observer); }
   const ScanSource& source() const { return *source_; }
@@ -34,7 +49,7 @@ class Session::Impl {
     if (!result_.failure) guarded([this] { run_sweeps(); });
     result_.wall_s = static_cast<double>(steady_ns() - begin_ns) * 1e-9;
     result_.peak_rss_mb = detail::peak_memory_mb();
-    result_.source = source_->info();
+    result_.source = info();
     result_.config = options_.config;
     result_.elevation_given_deg = elevation_given_deg();
     // A second pass that was ended early has learnt less than the first.
@@ -59,8 +74,24 @@ class Session::Impl {
   Odometry new_odometry() const {
     Odometry odometry(options_.config, steady_ns);
     odometry.keep_intensities(options_.keep_intensities);
-    if (options_.calibration) odometry.start_with(*options_.calibration);
+    if (options_.calibration) {
+      check_reading(*options_.calibration, source_->info().elevation_correction_deg);
+      odometry.start_with(*options_.calibration);
+    }
     return odometry;
+  }
+
+  bool is_among(const std::vector<std::string>& recordings) const {
+    return std::find(recordings.begin(), recordings.end(), recording_) != recordings.end();
+  }
+
+  SourceInfo info() const {
+    SourceInfo info = source_->info();
+    if (options_.calibration && is_among(options_.calibration->recordings)) {
+      info.warnings.push_back(name_of(*options_.calibration) +
+                              ": learnt from this recording too: errors look smaller than on a new one");
+    }
+    return info;
   }
 
   bool interrupted() {
@@ -125,7 +156,10 @@ class Session::Impl {
   }
 
   void keep_learnt() {
-    result_.learnt = odometry_.sensor_angles();
+    SensorAngles& learnt = result_.learnt;
+    learnt = odometry_.sensor_angles();
+    learnt.elevation_correction_deg = source_->info().elevation_correction_deg;
+    if (!recording_.empty() && !is_among(learnt.recordings)) learnt.recordings.push_back(recording_);
     result_.learnt_from = result_.results.size();
   }
 
@@ -144,7 +178,7 @@ class Session::Impl {
 
   // As they come: a run may take hours.
   void give_warnings() {
-    const std::vector<std::string> warnings = source_->info().warnings;
+    const std::vector<std::string> warnings = info().warnings;
     for (const std::string& warning : warnings) {
       if (std::find(given_.begin(), given_.end(), warning) != given_.end()) continue;
       given_.push_back(warning);
@@ -166,6 +200,7 @@ class Session::Impl {
   OpenSource open_;
   SessionOptions options_;
   std::unique_ptr<ScanSource> source_;
+  std::string recording_;  // its path, absolute; empty: unknown
   Odometry odometry_;
   std::vector<SessionObserver*> observers_;
   SessionResult result_;

@@ -8,7 +8,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 // A short drive of an HDL-64 with an error of 0.3 degrees, and its results.
 class Calibration : public testing::Test {
@@ -46,9 +48,26 @@ TEST_F(Calibration, AnotherRunBeginsWithIt) {
   EXPECT_TRUE(fs::exists(out / "known" / "calibration.yaml"));
 }
 
-TEST_F(Calibration, SaysHowThePointsWereRead) {
-  rilo_succeeds({"run", data(), "--out", results(), "--no-report", "--elevation-correction", "-0.3"});
-  EXPECT_THAT(slurp(calibration()), HasSubstr("/drive, read with --elevation-correction -0.3.\n"));
+TEST_F(Calibration, BelongsToDataReadInTheSameWay) {
+  rilo_succeeds({"run", data(), "--count", "5", "--out", results(), "--no-report", "--elevation-correction", "-0.3"});
+  EXPECT_THAT(slurp(calibration()), HasSubstr("elevation_correction_deg: -0.3 "));
+  rilo_fails(2, {"run", data(), "--count", "2", "--calibration", calibration()},
+             {calibration().string() + ": learnt from data read with an elevation correction of -0.3 deg",
+              "here it is 0 deg. Give the same"});
+  rilo_succeeds({"run", data(), "--count", "2", "--calibration", calibration(), "--elevation-correction", "-0.3"});
+}
+
+TEST_F(Calibration, OfTheVeryRecordingIsSaid) {
+  const std::string warning = calibration().string() + ": learnt from this recording too: errors look smaller";
+  const Outcome run = rilo_succeeds(
+      {"run", data() / ".", "--count", "2", "--out", out / "same", "--no-report", "--calibration", calibration()});
+  EXPECT_THAT(run.err, HasSubstr("warning: " + warning));
+  EXPECT_THAT(json_file(out / "same" / "metrics.json")["warnings"].dump(), HasSubstr("learnt from this recording"));
+  fs::rename(data(), out / "another");
+  const Outcome other = rilo_succeeds(
+      {"run", out / "another", "--count", "2", "--out", out / "chain", "--no-report", "--calibration", calibration()});
+  EXPECT_THAT(other.err, Not(HasSubstr("this recording")));
+  EXPECT_THAT(slurp(out / "chain" / "calibration.yaml"), AllOf(HasSubstr(data().string()), HasSubstr("/another\"")));
 }
 
 TEST_F(Calibration, AConfiguredOffsetBesideItIsIgnoredAndSaid) {
@@ -61,14 +80,14 @@ TEST_F(Calibration, AConfiguredOffsetBesideItIsIgnoredAndSaid) {
 TEST_F(Calibration, OfAnotherSensorIsRefused) {
   rilo_succeeds({"simulate", "--out", out / "other", "--sensor", "vlp16", "--sweeps", "3", "--quiet"});
   rilo_fails(2, {"run", out / "other", "--out", out / "others", "--calibration", calibration()},
-             {"calibration: of another sensor, or of data read in another way: "});
+             {calibration().string() + ": of another sensor, or of data read in another way: "});
   EXPECT_FALSE(fs::exists(out / "others" / "metrics.json"));
 }
 
 TEST_F(Calibration, MistakesAreNamed) {
   rilo_fails(2, {"run", data(), "--calibration", out / "none.yaml"}, {"none.yaml", "no such file"});
   rilo_fails(2, {"run", data(), "--calibration", results() / "config.yaml"},
-             {"config.yaml, line ", "elevation_offset_deg, elevation_estimate_deg, elevation_sigma_deg and beams"});
+             {"config.yaml, line ", "elevation_sigma_deg and beams"});
 }
 
 TEST_F(Calibration, IsNotReplacedByTheRunThatReadsIt) {

@@ -24,6 +24,8 @@ SensorAngles some_angles() {
   angles.elevation_offset_rad = -0.205 * kDegree;
   angles.elevation_estimate = {-0.2 * kDegree, 0.04 * kDegree};
   angles.beams = {{0, -24.8 * kDegree, 0.012345 * kDegree, -0.06 * kDegree}, {1023, 15.0 * kDegree, 0.0, 0.0}};
+  angles.elevation_correction_deg = -0.3;
+  angles.recordings = {"/drives/a: \"b\" # c", "/drives/d\ne"};
   return angles;
 }
 
@@ -50,9 +52,13 @@ TEST(CalibrationFile, WhatIsWrittenIsRead) {
   EXPECT_NEAR(read.beams[0].elevation_rad, -24.8 * kDegree, 1e-4 * kDegree);
   EXPECT_NEAR(read.beams[0].add_elevation_rad, 0.012345 * kDegree, 1e-6 * kDegree);
   EXPECT_NEAR(read.beams[0].add_azimuth_rad, -0.06 * kDegree, 1e-6 * kDegree);
+  EXPECT_EQ(read.elevation_correction_deg, -0.3);
+  EXPECT_EQ(read.recordings, some_angles().recordings);
+  EXPECT_EQ(read.name, (folder.path() / "c.yaml").string());
   EXPECT_EQ(dump_calibration(read, "60 sweeps of a: \"b\" c # d"), text);
   const SensorAngles empty = parse_calibration(dump_calibration({}, ""), "empty");
   EXPECT_TRUE(empty.beams.empty());
+  EXPECT_FALSE(empty.elevation_correction_deg) << "not known";
   EXPECT_TRUE(std::isinf(empty.elevation_estimate.sigma_rad)) << "nothing is known";
 }
 
@@ -88,7 +94,15 @@ TEST(CalibrationFile, MistakesAreNamedWithTheirPlace) {
   EXPECT_THAT(refusal(offset + "beams: [[1, 0, 0, inf]]"), HasSubstr("a correction is \"inf\""));
   EXPECT_THAT(refusal(offset + "beams: [[1, 0, 0, 0], [1, 1, 0, 0]]"), HasSubstr("beam 1 a second time"));
   EXPECT_THAT(refusal(offset + "beams: [[1, [], 0, 0]]"), StartsWith("c.yaml, line 2, column 13: "));
+  EXPECT_THAT(refusal(offset + "recordings: here\nbeams: []"), HasSubstr("expected a list of paths"));
   EXPECT_THROW(load_calibration("/no/such/file.yaml"), ConfigError);
+}
+
+TEST(CalibrationFile, CutOffAtTheEndOfALineItIsRefused) {
+  const std::string text = dump_calibration(some_angles(), "a drive");
+  EXPECT_THAT(refusal(text.substr(0, text.find("  - [1023"))),
+              StartsWith("c.yaml: the end is missing; expected a last line \"...\". It is cut off: copy it again"));
+  EXPECT_NO_THROW(parse_calibration(text + "\n \n", "blank lines"));
 }
 
 TEST(CalibrationFile, WhateverTheBytes) {
@@ -102,9 +116,10 @@ TEST(CalibrationFile, WhateverTheBytes) {
       return false;
     }
   };
-  std::size_t taken = 0;
-  for (std::size_t length = 0; length < text.size(); ++length) taken += is_taken(text.substr(0, length)) ? 1 : 0;
-  EXPECT_LT(taken, 60U);  // cut within the last correction
+  ASSERT_TRUE(is_taken(text));
+  for (std::size_t length = 0; length < text.rfind("\n...") + 4; ++length) {
+    EXPECT_FALSE(is_taken(text.substr(0, length))) << text.substr(0, length);
+  }
   for (int round = 0; round < 2000; ++round) {
     std::string broken = text;
     for (int i = 0; i < 3; ++i) broken[random() % broken.size()] = static_cast<char>(random() % 256);

@@ -82,11 +82,19 @@ TEST(NodeParameters, SingleKeysCountMoreThanTheFile) {
 
 TEST(NodeParameters, TheCalibrationIsLoaded) {
   const TempDir folder;
-  const std::string file = folder.write("c.yaml", "elevation_offset_deg: 0.2\nbeams: [[3, -5, 0.01, 0]]\n").string();
-  const NodeOptions options = node_options({{"calibration", file}, {"icp.max_iterations", std::int64_t{7}}});
+  const std::string file =
+      folder
+          .write("c.yaml", "elevation_correction_deg: 0.1\nelevation_offset_deg: 0.2\nbeams: [[3, -5, 0.01, 0]]\n...\n")
+          .string();
+  const NodeOptions options =
+      node_options({{"calibration", file}, {"icp.max_iterations", std::int64_t{7}}, {"elevation_correction", 0.1}});
   ASSERT_TRUE(options.calibration);
   EXPECT_NEAR(options.calibration->elevation_offset_rad, 0.00349, 1e-5);
   EXPECT_EQ(options.calibration->beams.at(0).beam, 3);
+  EXPECT_THAT(refusal([&] {
+                node_options({{"calibration", file}});
+              }),
+              HasSubstr(file + ": learnt from data read with an elevation correction of 0.1 deg"));
   EXPECT_FALSE(node_options({{"calibration", ""}}).calibration);
   EXPECT_THROW(node_options({{"calibration", "nowhere.yaml"}}), IoError);
 }

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace rilo {
@@ -26,6 +28,11 @@ struct SensorAngles {
   double elevation_offset_rad = 0;    ///< to be added to all elevation angles: the estimate, if that is certain
   AngleEstimate elevation_estimate;   ///< certain or not: counts beside that of other recordings
   std::vector<BeamCorrection> beams;  ///< each beam once
+  /// SourceOptions::elevation_correction_deg of the data they were learnt from, which they come on top of; empty:
+  /// unknown
+  std::optional<double> elevation_correction_deg = {};
+  std::vector<std::string> recordings = {};  ///< absolute paths of these data; empty: unknown
+  std::string name = {};                     ///< of the file they come from, for messages
 };
 
 }  // namespace rilo

@@ -68,7 +68,7 @@ struct SessionResult {
   CompensationTrial trial;                       ///< of points without times
   std::optional<Restart> restart;                ///< when there was a second pass
   double elevation_given_deg = 0;                ///< offset of the calibration; without one elevation.initial_deg
-  SensorAngles learnt;                           ///< Odometry::sensor_angles after the pass with more sweeps
+  SensorAngles learnt;                           ///< after the pass with more sweeps, with where it was learnt
   std::size_t learnt_from = 0;                   ///< sweeps of that pass
   PoseInstant pose_instant = PoseInstant::kMid;  ///< of the sweep, that the poses refer to
   double wall_s = 0;                             ///< duration of the run, both passes; not of the trial
@@ -89,7 +89,7 @@ std::optional<std::size_t> sweeps_to_do(const ScanSource& source, std::size_t st
 class Session {
  public:
   /// Opens the source. @throws what `open` throws; std::invalid_argument when a value of the configuration is out of
-  /// range.
+  /// range, or the calibration was learnt with another elevation correction than that of the source.
   Session(OpenSource open, SessionOptions options);
   ~Session();
   Session(const Session&) = delete;

@@ -45,6 +45,7 @@ void guarded(BenchCell& cell, const Work& work) {
 
 void run(const RunRequest& flags, const BenchSequence& sequence, RunRecord& record, BenchCell& cell) {
   record.data = flags.data;
+  record.calibration = flags.calibration;
   const auto truth = truth_file(sequence);
   if (truth) read_poses(truth->file);  // rather found out now than after the run
   Session session(source_of(flags), session_options(flags, record.config));
@@ -82,6 +83,7 @@ RunRequest run_request(const BenchSequence& sequence, const BenchRunOptions& fla
   run.data = sequence.path.string();
   run.start = sequence.start;
   run.count = flags.count > 0 ? flags.count : sequence.count;
+  run.calibration = sequence.calibration.string();
   run.quiet = flags.quiet;
   run.source = flags.source;
   if (sequence.point_times) {

@@ -83,6 +83,7 @@ void describe(std::vector<BenchJob>& jobs, const BenchRunOptions& flags, const s
                        {"data", data_hash},
                        {"start", run.start},
                        {"count", run.count},
+                       {"calibration", run.calibration.empty() ? "" : hash_of_file(run.calibration)},
                        {"reading", reading_json(run.source)},
                        {"poses", poses_json(job.sequence)},
                        {"configuration", hash_of(dump_config(config))},

@@ -132,6 +132,7 @@ class PlanReader {
              {{"name", [&](const Node& n) { s.name = text(n, "name"); }},
               file("path", s.path),
               file("ground_truth", s.ground_truth),
+              file("calibration", s.calibration),
               {"pose_frame",
                [&](const Node& n) {
                  s.camera_frame = word(n, "pose_frame", {"lidar", "camera"}) == "camera";

@@ -26,6 +26,7 @@ struct BenchSequence {
   std::string name;
   std::filesystem::path path;          ///< data, as for `rilo run`
   std::filesystem::path ground_truth;  ///< pose file; empty: what lies beside the data
+  std::filesystem::path calibration;   ///< angles of the sensor, calibration.yaml of another run; empty: none
   bool camera_frame = false;           ///< given pose files are in the camera frame (`Tr` of calib.txt)
   double max_gap_s = 0.02;             ///< given pose files with stamps: largest distance to a sweep's pose
   std::size_t start = 0;               ///< sweeps skipped

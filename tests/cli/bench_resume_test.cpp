@@ -84,6 +84,24 @@ TEST(BenchResume, FinishedCellsAreNotRunAgainUnlessSomethingChanged) {
   EXPECT_EQ(cells_in(out).size(), 8U);
 }
 
+TEST(BenchResume, AChangedCalibrationIsRunAgain) {
+  const TempDir folder;
+  const std::string yaml = "elevation_offset_deg: 0.1\nbeams: []\n...\n";
+  folder.write("c.yaml", yaml);
+  const auto plan = folder.write(
+      "plan.yaml", "sequences: [{path: '" + shared_drive().string() + "', count: 2, calibration: c.yaml}]\n");
+  const auto out = folder / "out";
+  rilo_succeeds({"bench", plan, "--out", out, "--quiet"});
+  const json metrics = json_file(out / "results.json")["cells"][0]["metrics"];
+  EXPECT_EQ(metrics["elevation_given_deg"], 0.1);
+  EXPECT_EQ(metrics["calibration"], (folder / "c.yaml").string());
+  rilo_succeeds({"bench", plan, "--out", out, "--quiet"});
+  EXPECT_EQ(cells_in(out).size(), 1U);
+  folder.write("c.yaml", "# another\n" + yaml);
+  rilo_succeeds({"bench", plan, "--out", out, "--quiet"});
+  EXPECT_EQ(cells_in(out).size(), 2U);
+}
+
 TEST(BenchResume, AKilledBenchmarkGoesOnWhereItWas) {
   const TempDir folder;
   const auto plan = six_cells(folder, shared_drive(), 9);

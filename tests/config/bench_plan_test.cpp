@@ -33,6 +33,7 @@ sequences:
   - name: two
     path: /data/two
     ground_truth: truth/two.txt
+    calibration: sensors/two.yaml
     pose_frame: camera
     max_gap_s: 0.5
     start: 3
@@ -53,6 +54,7 @@ configurations:
   const BenchSequence& two = plan.sequences[1];
   EXPECT_EQ(two.path, "/data/two");
   EXPECT_EQ(two.ground_truth, "folder/truth/two.txt");
+  EXPECT_EQ(two.calibration, "folder/sensors/two.yaml");
   EXPECT_TRUE(two.camera_frame);
   EXPECT_EQ(two.max_gap_s, 0.5);
   EXPECT_EQ(two.start, 3U);

@@ -88,7 +88,7 @@ def main(arguments):
         lines = [(label, columns[name]) for name, label in (MEMORY if of_memory else TIMES)]
         picture = svg(
             "Memory of the process" if of_memory else "Time of a sweep",
-            AXES.get(study, study), "MB" if of_memory else "ms", columns["value"], lines)
+            AXES.get(study, study), "MiB" if of_memory else "ms", columns["value"], lines)
         with open(os.path.splitext(path)[0] + ".svg", "w", encoding="utf-8") as file:
             file.write(picture)
     return 0

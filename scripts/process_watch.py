@@ -4,7 +4,7 @@ import os
 
 
 def state_of(pid):
-    """Resident memory (MB), open files, threads; None once the process is gone."""
+    """Resident memory (MiB), open files, threads; None once the process is gone."""
     try:
         with open(f"/proc/{pid}/status", encoding="ascii", errors="replace") as lines:
             fields = dict(line.split(":", 1) for line in lines if ":" in line)
@@ -16,14 +16,14 @@ def state_of(pid):
 
 def table(rows):
     """Lines of a table of what `rows` say: sweeps so far, milliseconds a sweep since the row before, and the state."""
-    yield f"{'sweeps':>8} {'ms':>7} {'RSS MB':>8} {'files':>6} {'threads':>8}"
+    yield f"{'sweeps':>8} {'ms':>7} {'RSS MiB':>8} {'files':>6} {'threads':>8}"
     for sweeps, ms, (rss_mb, files, threads) in rows:
         yield f"{sweeps:8d} {ms:7.1f} {rss_mb:8.1f} {files:6d} {threads:8d}"
 
 
 def print_growth(rows):
     """Says how the last tenth of the rows differs from the tenth after the first, which is starting up, on average.
-    Returns the growth of memory (MB), open files and threads."""
+    Returns the growth of memory (MiB), open files and threads."""
     part = max(1, len(rows) // 10)
     skip = max(1, round(0.1 * len(rows)))
 
@@ -32,7 +32,7 @@ def print_growth(rows):
         return sum(map(key, late)) / len(late) - sum(map(key, early)) / len(early)
 
     memory, files, threads = (growth(lambda row, i=i: row[2][i]) for i in range(3))
-    print(f"last tenth against the second: {growth(lambda row: row[1]):+.1f} ms, {memory:+.1f} MB, {files:+.1f} files, "
+    print(f"last tenth against the second: {growth(lambda row: row[1]):+.1f} ms, {memory:+.1f} MiB, {files:+.1f} files, "
           f"{threads:+.1f} threads")
     return memory, files, threads
 

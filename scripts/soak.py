@@ -6,7 +6,7 @@ usage: soak.py RILO DRIVE OUT [--sweeps 20000] [--every 500] [--threads 0]
 DRIVE is a folder of the KITTI layout without times (rilo simulate --deskewed, say); OUT gets links to its sweeps and the
 results. Prints a table: milliseconds a sweep, resident memory, open files and threads; exit code 1 if the last tenth of
 the run holds more files or threads than the tenth after the first, or more memory than the results of the sweeps
-between, which are kept until the end (1.5 kB a sweep), and 5 MB.
+between, which are kept until the end (1.5 kB a sweep), and 5 MiB.
 """
 import argparse
 import csv

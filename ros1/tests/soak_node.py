@@ -5,7 +5,7 @@
 DRIVE is a folder made by `rilo simulate`, with or without times. A sweep is sent when the one but one before it has its
 pose, so that the node is never idle and drops nothing. Prints a table: milliseconds a sweep (everything, transport
 included), resident memory, open files, threads; exit code 1 if the last tenth of the run holds more files or threads than
-the tenth after the first, or more memory than the published path, 250 bytes a pose, and 5 MB. No map is kept for save_map,
+the tenth after the first, or more memory than the published path, 250 bytes a pose, and 5 MiB. No map is kept for save_map,
 which grows with every place.
 """
 

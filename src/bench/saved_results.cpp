@@ -72,7 +72,7 @@ std::vector<ExperimentFigure> report_figures() {
           {"ms_median", "Sweep time, median", "ms", 1},
           {"ms_p99", "Sweep time, p99", "ms", 1},
           {"mean_iterations", "Iterations", "", 2},
-          {"peak_rss_mb", "Peak memory", "MB", 0}};
+          {"peak_rss_mb", "Peak memory", "MiB", 0}};
 }
 
 std::string bench_notice(const Json& json, std::size_t failed) {

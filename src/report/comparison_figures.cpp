@@ -44,7 +44,7 @@ const std::vector<ComparisonFigure>& comparison_figures() {
        [](const RunReport& r) { return of_evaluation(r, [](const Evaluation& e) { return e.end_error_m; }); }},
       {{"ms_median", "Sweep time, median", "ms", 1}, of_timing<&TimingFigures::median_ms>},
       {{"ms_p99", "p99", "ms", 1}, of_timing<&TimingFigures::p99_ms>},
-      {{"peak_rss_mb", "Peak memory", "MB", 0},
+      {{"peak_rss_mb", "Peak memory", "MiB", 0},
        [](const RunReport& r) { return r.peak_rss_mb > 0.0 ? std::optional(r.peak_rss_mb) : std::nullopt; }}};
   return kFigures;
 }

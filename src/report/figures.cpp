@@ -81,7 +81,7 @@ std::vector<Figure> headline_figures(const RunReport& run) {
   add_recorded(run, figures);
   add_speed(run, figures);
   if (run.peak_rss_mb > 0.0) {
-    figures.push_back({"Peak memory", number(run.peak_rss_mb, 0), "MB", "resident set of the whole process"});
+    figures.push_back({"Peak memory", number(run.peak_rss_mb, 0), "MiB", "resident set of the whole process"});
   }
   if (!run.evaluation) {
     const double path = run.estimate.empty() ? 0.0 : path_lengths(run.estimate).back();

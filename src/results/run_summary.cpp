@@ -15,7 +15,7 @@ std::string effort(const RunMetrics& m) {
                        m.ms.mean.value_or(0), m.ms.median.value_or(0), m.ms.p95.value_or(0), m.ms.p99.value_or(0),
                        m.ms.max.value_or(0), counted(static_cast<std::size_t>(m.threads), "thread"));
   }
-  return text + fmt::format("peak memory     {:.0f} MB\n", m.peak_rss_mb.value_or(0));
+  return text + fmt::format("peak memory     {:.0f} MiB\n", m.peak_rss_mb.value_or(0));
 }
 
 std::string statuses(const RunMetrics& m) {

@@ -1,4 +1,5 @@
 // rilo eval: estimated trajectories against ground truth.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "checks.hpp"
 #include "command.hpp"
 #include "console/text.hpp"
+#include "report/figures.hpp"
 #include "results/evaluation_output.hpp"
 #include "results/metrics_json.hpp"
 #include "results/pose_files.hpp"
@@ -82,7 +84,9 @@ void print_table(const std::vector<Sequence>& sequences, const KittiBenchmark& b
     std::cout << fmt::format("{} against {}\n{}\n{}\n", sequence.estimate, sequence.truth, sequence.protocol,
                              evaluation_table(sequence.evaluation));
   }
-  std::cout << benchmark_table(benchmark, sequences.size());
+  const bool far = std::any_of(sequences.begin(), sequences.end(),
+                               [](const Sequence& sequence) { return sequence.evaluation.path_m >= kLeastPathM; });
+  if (far) std::cout << benchmark_table(benchmark, sequences.size());
 }
 
 int eval(const EvalFlags& flags) {

@@ -83,6 +83,10 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
     const std::string found = unexpected(*command, left_over(app, argc, argv));
     if (!found.empty()) text = found + detached_port(argc, argv);
   }
+  // Of an option at the end of the line; CLI11 says "1 required TEXT missing".
+  if (const auto count = text.find(": 1 required "); count != std::string::npos) {
+    text = text.substr(0, count) + ": its value is missing";
+  }
   return text + (text.ends_with("?") ? " See: " : ". See: ") + name + " --help";
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "console/text.hpp"
+#include "report/figures.hpp"
 
 namespace rilo {
 
@@ -20,7 +21,7 @@ std::string evaluation_table(const Evaluation& e) {
   std::string text = fmt::format("{}, path {:.1f} m\n", counted(e.poses, "pose"), e.path_m);
   const auto t_rel = e.kitti.t_rel_pct();
   const auto r_rel = e.kitti.r_rel_deg_100m();
-  if (t_rel && r_rel) {
+  if (t_rel && r_rel && e.path_m >= kLeastPathM) {
     text += fmt::format(
         "{:<34} t_rel {:.4f} %   r_rel {:.4f} deg/100m   ({} segments; {})\n", "KITTI relative error", *t_rel, *r_rel,
         e.kitti.segments.size(),
@@ -30,7 +31,7 @@ std::string evaluation_table(const Evaluation& e) {
                           length.t_rel_pct, length.r_rel_deg_100m);
     }
   } else {
-    text += "KITTI relative error: the path is too short for any segment\n";
+    text += fmt::format("{:<34} none: the path is too short\n", "KITTI relative error");
   }
   text += row("APE, SE(3) Umeyama aligned", e.ape.translation_m, "m");
   text += row("APE rotation, aligned", e.ape.rotation_deg, "deg");

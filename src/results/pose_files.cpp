@@ -20,6 +20,8 @@ namespace rilo {
 
 namespace {
 
+constexpr const char* kGivePoses = "Give a pose file, of the results of a run trajectory.tum or poses_lidar.txt";
+
 constexpr std::size_t kKittiNumbers = 12;
 constexpr std::size_t kTumNumbers = 8;
 
@@ -123,12 +125,17 @@ PairedPoses paired_automatically(const PoseFile& truth, const PoseFile& estimate
 }  // namespace
 
 PoseFile read_poses(const std::filesystem::path& file) {
+  if (detail::is_folder(file)) {
+    const std::filesystem::path poses = file / "poses_lidar.txt";
+    const bool of_run = detail::is_file(poses);
+    throw IoError({file, "", "a folder", "a pose file", of_run ? "Give " + poses.string() : kGivePoses});
+  }
   const std::size_t count = detail::is_file(file) ? words_of_first_line(file) : kKittiNumbers;
   if (count == kTumNumbers) return {file, read_tum(file), true, {}, {}};
   if (count == kKittiNumbers) return without_stamps(file, read_kitti_poses(file));
   if (count == 0) throw IoError({file, "", "no pose", "a pose file, KITTI or TUM form", "Check the path"});
-  throw IoError({file, "first line", fmt::format("{} words", count), "12 numbers (KITTI form) or 8 (TUM form)",
-                 "Give a pose file, of the results of a run trajectory.tum or poses_lidar.txt"});
+  throw IoError(
+      {file, "first line", detail::counted(count, "word"), "12 numbers (KITTI form) or 8 (TUM form)", kGivePoses});
 }
 
 PoseFile read_truth(const std::filesystem::path& path, PoseInstant instant) {

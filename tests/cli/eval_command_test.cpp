@@ -179,6 +179,19 @@ TEST(EvalCommand, TextForPeople) {
   const TempDir folder;
   const std::string truth = folder.write("truth.txt", straight_kitti(201));
   expect_parts(rilo_succeeds({"eval", truth, truth}).out, {"201 poses", "200.0 m", "t_rel", "APE", "RPE"});
+  // Percent of a path of centimetres say nothing.
+  const std::string at_rest = folder.write("rest.txt", straight_kitti(20, 0.001));
+  const std::string text = rilo_succeeds({"eval", at_rest, truth}).out;
+  EXPECT_NE(text.find("KITTI relative error               none: the path is too short"), std::string::npos) << text;
+  EXPECT_EQ(text.find("t_rel"), std::string::npos) << text;
+}
+
+TEST(EvalCommand, AFolderInThePlaceOfPosesNamesThoseInIt) {
+  const TempDir folder;
+  const std::string truth = folder.write("truth.txt", straight_kitti(5));
+  const std::string poses = folder.write("results/poses_lidar.txt", straight_kitti(5));
+  rilo_fails(3, {"eval", truth, folder / "results"}, {"a folder; expected a pose file. Give " + poses});
+  rilo_fails(3, {"eval", truth, folder.path()}, {"a folder; expected a pose file. Give a pose file, of the results"});
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ TEST(Usage, Version) {
   EXPECT_EQ(version.err, "");
 }
 
+TEST(Usage, AMissingValueIsNamedAsOne) {
+  rilo_fails(2, {"run", "data", "--out"}, {"--out: its value is missing. See: rilo run --help"});
+}
+
 TEST(Usage, WrongCommandLinesEndWith2AndOneLine) {
   const std::vector<std::vector<std::string>> wrong = {
       {},

@@ -132,9 +132,10 @@ nlohmann::json quality_json(const QualityFlags& flags, const QualityRun& run) {
 std::string quality_table(const QualityFlags& flags, const QualityRun& run) {
   const MapQuality& q = run.quality;
   std::string text = fmt::format("{} with {}\n{}\n", valid_utf8(flags.data), valid_utf8(flags.poses), run.protocol);
-  text += fmt::format("{} of {} sweeps, {}, {} of them planar; points from {} to {} m, neighbours within {} m\n",
-                      counted(q.windows, "window"), flags.config.window_sweeps, counted(q.places, "place"),
-                      q.plane_rms_m.count, flags.config.min_range_m, flags.config.max_range_m, flags.config.radius_m);
+  text += fmt::format("{} of {}, {}, {} of them planar; points from {} to {} m, neighbours within {} m\n",
+                      counted(q.windows, "window"), counted(flags.config.window_sweeps, "sweep"),
+                      counted(q.places, "place"), q.plane_rms_m.count, flags.config.min_range_m,
+                      flags.config.max_range_m, flags.config.radius_m);
   text += fmt::format("{:<34} median {:.3f}  mean {:.3f}  75 % {:.3f} mm\n", "RMS distance to the local plane",
                       kMillimetres * q.plane_rms_m.median, kMillimetres * q.plane_rms_m.mean,
                       kMillimetres * q.plane_rms_p75_m);

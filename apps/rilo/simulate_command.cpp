@@ -60,8 +60,8 @@ int simulate(const SimulateFlags& flags) {
   }
   progress.finish();
   if (!flags.quiet) {
-    std::cout << fmt::format("{}, {} points, {:.1f} m: {}\n", counted(summary.sweeps, "sweep"), summary.points,
-                             summary.path_m, flags.out);
+    std::cout << fmt::format("{}, {}, {:.1f} m: {}\n", counted(summary.sweeps, "sweep"),
+                             counted(summary.points, "point"), summary.path_m, flags.out);
   }
   return InterruptGuard::signal() == 0 ? kSuccess : kSignalBase + InterruptGuard::signal();
 }

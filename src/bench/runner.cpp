@@ -244,7 +244,7 @@ int run_bench(const BenchOrder& order, std::vector<BenchJob> jobs) {
 
 int run_bench_cell(const BenchOrder& order, const std::vector<BenchJob>& jobs, std::size_t number) {
   if (number >= jobs.size())
-    throw RunError(RunErrorKind::kUsage, fmt::format("--cell {}: {} cells", number, jobs.size()));
+    throw RunError(RunErrorKind::kUsage, fmt::format("--cell {}: {}", number, counted(jobs.size(), "cell")));
   std::vector<BenchJob> job = {jobs[number]};
   BenchRunOptions flags = order.run;
   const char* processors = std::getenv("SLURM_CPUS_PER_TASK");

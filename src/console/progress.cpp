@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "io/text.hpp"
+
 namespace rilo {
 
 namespace {
@@ -43,7 +45,8 @@ void Progress::update(std::size_t done, const std::string& note) {
 std::string Progress::line(std::size_t done, const std::string& note) const {
   const double seconds = std::max(1e-9, std::chrono::duration<double>(shown_ - begin_).count());
   const double rate = static_cast<double>(done) / seconds;
-  if (!total_ || *total_ == 0) return fmt::format("{} {} sweeps, {:.1f}/s {}", what_, done, rate, note);
+  if (!total_ || *total_ == 0)
+    return fmt::format("{} {}, {:.1f}/s {}", what_, detail::counted(done, "sweep"), rate, note);
   const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(*total_));
   const auto filled = static_cast<std::size_t>(share * static_cast<double>(kBarWidth));
   const double left = rate > 0.0 ? static_cast<double>(*total_ - std::min(done, *total_)) / rate : 0.0;

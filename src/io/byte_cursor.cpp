@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -12,8 +13,8 @@ std::string byte_position(const BytesOrigin& origin, std::size_t offset) {
 
 std::string_view ByteCursor::take_bytes(std::size_t count, const char* what) {
   if (count > left()) {
-    throw IoError({origin_.file, position(), "the end after " + std::to_string(left()) + " bytes",
-                   std::to_string(count) + " bytes of " + what, "It is cut off or damaged: copy or record it again"});
+    throw IoError({origin_.file, position(), "the end after " + counted(left(), "byte"),
+                   counted(count, "byte") + " of " + what, "It is cut off or damaged: copy or record it again"});
   }
   const std::string_view taken = bytes_.substr(offset_, count);
   offset_ += count;

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "io/text.hpp"
 #include "node/base_frame.hpp"
 #include "node/node_health.hpp"
 #include "node/odometry_session.hpp"
@@ -134,7 +135,8 @@ class LiveOdometry::Impl {
   void tell_drops() {
     const std::size_t dropped = queue->counts().dropped;
     if (dropped == dropped_told_ || !drops_.due()) return;
-    output_.warn(fmt::format("{} sweeps dropped since the start: they come faster than they are registered", dropped));
+    output_.warn(detail::counted(dropped, "sweep") +
+                 " dropped since the start: they come faster than they are registered");
     dropped_told_ = dropped;
   }
 

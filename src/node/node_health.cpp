@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "io/text.hpp"
+
 namespace rilo {
 namespace {
 
@@ -94,18 +96,19 @@ void NodeHealth::judge(const LiveQueueCounts& queue, StatusMessage& status) cons
   if (!waiting_for_.empty()) merge(NodeLevel::kError, "waiting for " + waiting_for_, status);
   if (queue.dropped > reported_queue_.dropped) {
     const std::size_t dropped = queue.dropped - reported_queue_.dropped;
-    merge(NodeLevel::kWarn, fmt::format("{} sweeps dropped since the last report: too slow for the sensor", dropped),
-          status);
+    merge(NodeLevel::kWarn,
+          detail::counted(dropped, "sweep") + " dropped since the last report: too slow for the sensor", status);
   }
   if (lost_ > reported_lost_) {
-    merge(NodeLevel::kWarn, fmt::format("{} messages lost on the way since the last report", lost_ - reported_lost_),
-          status);
+    merge(NodeLevel::kWarn,
+          detail::counted(lost_ - reported_lost_, "message") + " lost on the way since the last report", status);
   }
   if (bad_messages_ > reported_bad_messages_) {
     const std::size_t bad = bad_messages_ - reported_bad_messages_;
     const bool none = sweeps_ == reported_sweeps_;
     merge(none ? NodeLevel::kError : NodeLevel::kWarn,
-          fmt::format("{} messages that cannot be read since the last report{}", bad, none ? ", and no other" : ""),
+          fmt::format("{} that cannot be read since the last report{}", detail::counted(bad, "message"),
+                      none ? ", and no other" : ""),
           status);
   }
   if (silent_reports_ >= kStaleReports) {

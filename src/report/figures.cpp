@@ -19,8 +19,8 @@ std::string segments_of(const KittiError& kitti) {
   const std::vector<KittiLengthError> rows = kitti.per_length();
   if (rows.empty()) return "no segment: the path is too short";
   const int digits = kitti.short_path ? 1 : 0;
-  return fmt::format("{} segments of {} … {} m", kitti.segments.size(), number(rows.front().length_m, digits),
-                     number(rows.back().length_m, digits));
+  return fmt::format("{} segment{} of {} … {} m", kitti.segments.size(), kitti.segments.size() == 1 ? "" : "s",
+                     number(rows.front().length_m, digits), number(rows.back().length_m, digits));
 }
 
 void add_accuracy(const Evaluation& e, std::vector<Figure>& figures) {

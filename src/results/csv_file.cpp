@@ -39,7 +39,7 @@ bool CsvFile::next() {
     if (line->empty()) continue;
     cells_ = split_cells(*line);
     if (cells_.size() == header_.size()) return true;
-    throw IoError({bytes_.path, detail::at_line(lines_.number()), fmt::format("{} values", cells_.size()),
+    throw IoError({bytes_.path, detail::at_line(lines_.number()), detail::counted(cells_.size(), "value"),
                    fmt::format("{}, as the header has names", header_.size()), kind_.remedy});
   }
   return false;

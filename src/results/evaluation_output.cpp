@@ -23,8 +23,8 @@ std::string evaluation_table(const Evaluation& e) {
   const auto r_rel = e.kitti.r_rel_deg_100m();
   if (t_rel && r_rel && e.path_m >= kLeastPathM) {
     text += fmt::format(
-        "{:<34} t_rel {:.4f} %   r_rel {:.4f} deg/100m   ({} segments; {})\n", "KITTI relative error", *t_rel, *r_rel,
-        e.kitti.segments.size(),
+        "{:<34} t_rel {:.4f} %   r_rel {:.4f} deg/100m   ({}; {})\n", "KITTI relative error", *t_rel, *r_rel,
+        counted(e.kitti.segments.size(), "segment"),
         e.kitti.short_path ? "short path: lengths k/8 of 80 % of it" : "100 … 800 m, every 10 poses, pooled");
     for (const KittiLengthError& length : e.kitti.per_length()) {
       text += fmt::format("  {:>7.1f} m {:>28} {:.4f} %         {:.4f} deg/100m\n", length.length_m, "",

@@ -172,8 +172,9 @@ PairedPoses pair_poses(const PoseFile& truth, const PoseFile& estimate, const Pa
       paired = paired_by_index(truth, estimate, options);
     }
   } catch (const std::invalid_argument& error) {
-    throw RunError(RunErrorKind::kBadData, fmt::format("{} ({} poses) and {} ({} poses): {}", truth.file.string(),
-                                                       in_truth, estimate.file.string(), in_estimate, error.what()));
+    throw RunError(RunErrorKind::kBadData,
+                   fmt::format("{} ({}) and {} ({}): {}", truth.file.string(), detail::counted(in_truth, "pose"),
+                               estimate.file.string(), detail::counted(in_estimate, "pose"), error.what()));
   }
   paired.protocol +=
       fmt::format("; {} of {} true and {} estimated poses", paired.poses.truth.size(), in_truth, in_estimate);

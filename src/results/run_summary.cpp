@@ -24,8 +24,9 @@ std::string statuses(const RunMetrics& m) {
     if (count > 0) text += fmt::format(" {} {}", name, count);
   }
   if (m.budget) {
-    text += fmt::format("\nbudget {:.1f} ms  fewer points on {} sweeps, coarse stage cut on {}, over budget on {}",
-                        m.budget->sweep_ms, m.budget->points_cut, m.budget->coarse_cut, m.budget->over_budget);
+    text += fmt::format("\nbudget {:.1f} ms  fewer points on {}, coarse stage cut on {}, over budget on {}",
+                        m.budget->sweep_ms, counted(m.budget->points_cut, "sweep"), m.budget->coarse_cut,
+                        m.budget->over_budget);
   }
   text += "\n";
   const auto begun = m.status.find("initialising");
@@ -65,8 +66,8 @@ std::string angles(const RunMetrics& m) {
                         m.beam_azimuth_rms_deg);
   }
   if (m.started_over_after_sweeps) {
-    text +=
-        fmt::format("passes          2: restarted after {} sweeps with these angles\n", *m.started_over_after_sweeps);
+    text += fmt::format("passes          2: restarted after {} with these angles\n",
+                        counted(*m.started_over_after_sweeps, "sweep"));
   }
   return text;
 }

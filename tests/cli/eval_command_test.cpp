@@ -146,7 +146,7 @@ TEST(EvalCommand, OfDifferentLengthsTheFirstAreCompared) {
   }
   EXPECT_EQ(rilo_succeeds({"eval", longer, shorter, "--start", "1"}).err, "");
   const std::string one = folder.write("one.txt", straight_kitti(1));
-  rilo_fails(3, {"eval", one, longer}, {"one.txt (1 poses)", "longer.txt (10 poses)"});
+  rilo_fails(3, {"eval", one, longer}, {"one.txt (1 pose)", "longer.txt (10 poses)"});
 }
 
 TEST(EvalCommand, TruthOfTheDataMayBeShorterAsForARun) {

@@ -62,7 +62,7 @@ TEST(NodeHealth, WhatIsLostIsToldOnceAndCountedForEver) {
   EXPECT_EQ(first.level, NodeLevel::kWarn);
   EXPECT_THAT(first.message, HasSubstr("degenerate; 2 sweeps dropped"));
   EXPECT_THAT(first.message, HasSubstr("3 messages lost on the way"));
-  EXPECT_THAT(first.message, HasSubstr("1 messages that cannot be read"));
+  EXPECT_THAT(first.message, HasSubstr("1 message that cannot be read"));
   const StatusMessage second = health.report({11, 2, 0});
   EXPECT_EQ(second.message, "degenerate");
   EXPECT_EQ(figure(second, "sweeps dropped"), "2");

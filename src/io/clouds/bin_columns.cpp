@@ -124,7 +124,7 @@ std::string checked_default(const std::filesystem::path& file) {
   if (*columns == 5 && has_rings_behind(file)) return kWithRing;
   const auto size = static_cast<std::size_t>(std::filesystem::file_size(file));
   throw IoError({file, "",
-                 std::to_string(size) + " bytes, which fit records of " + fitting_columns(size) +
+                 counted(size, "byte") + ", which fit records of " + fitting_columns(size) +
                      " columns; the numbers look like records of " + std::to_string(*columns),
                  std::string("records of 4 columns, ") + kDefault,
                  std::string("Say with bin_fields (--bin-fields) which columns it has, for example ") + kWithRing +

@@ -55,9 +55,9 @@ void check_size(const FileBytes& bytes, const std::string& fields, std::size_t c
   const std::size_t rest = bytes.size % record;
   if (rest == 0) return;
   throw IoError({bytes.path, "byte " + std::to_string(bytes.size - rest),
-                 std::to_string(bytes.size) + " bytes, which is " + std::to_string(bytes.size / record) +
-                     " records and " + std::to_string(rest) + " bytes",
-                 "records of " + std::to_string(record) + " bytes (" + fields + ", float32 each)",
+                 counted(bytes.size, "byte") + ", which is " + counted(bytes.size / record, "record") + " and " +
+                     counted(rest, "byte"),
+                 "records of " + counted(record, "byte") + " (" + fields + ", float32 each)",
                  "The file is cut off, or bin_fields does not fit it" + likely_columns(bytes.size)});
 }
 

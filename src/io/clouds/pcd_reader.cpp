@@ -35,9 +35,9 @@ struct PcdBody {
 void check_ascii_size(const PcdBody& body, std::size_t columns) {
   if (body.header.points <= (body.bytes().size() + 1) / (2 * columns)) return;
   body.fail(at_line(body.header.lines),
-            "POINTS " + std::to_string(body.header.points) + " and " + std::to_string(body.bytes().size()) +
-                " bytes of text after the header",
-            "at least " + std::to_string(2 * columns) + " bytes a point");
+            "POINTS " + std::to_string(body.header.points) + " and " + counted(body.bytes().size(), "byte") +
+                " of text after the header",
+            "at least " + counted(2 * columns, "byte") + " a point");
 }
 
 void read_ascii_row(const PcdBody& body, std::string_view line, std::size_t number, PackedRows& rows) {
@@ -47,7 +47,7 @@ void read_ascii_row(const PcdBody& body, std::string_view line, std::size_t numb
   for (std::size_t i = 0; i < fields.size(); ++i) {
     for (std::size_t k = 0; k < fields[i].count; ++k, ++column) {
       const auto word = words.next();
-      if (!word) body.fail(at_line(number), std::to_string(column) + " values", "a value for every field");
+      if (!word) body.fail(at_line(number), counted(column, "value"), "a value for every field");
       if (k == 0 && rows.wanted(i) && !rows.store_text(i, *word)) {
         body.fail(at_line(number, words.column()), in_quotes(*word),
                   "a number (" + std::string(to_string(fields[i].type)) + ") for field " + fields[i].name);
@@ -55,8 +55,7 @@ void read_ascii_row(const PcdBody& body, std::string_view line, std::size_t numb
     }
   }
   if (words.next())
-    body.fail(at_line(number, words.column()), "more than " + std::to_string(column) + " values",
-              "the fields of the header");
+    body.fail(at_line(number, words.column()), "more than " + counted(column, "value"), "the fields of the header");
 }
 
 RawCloud read_ascii(const PcdBody& body) {
@@ -77,7 +76,7 @@ RawCloud read_ascii(const PcdBody& body) {
     read_ascii_row(body, *line, number, rows);
   }
   if (count < body.header.points) {
-    body.fail(at_line(body.header.lines + lines.number()), "the end after " + std::to_string(count) + " points",
+    body.fail(at_line(body.header.lines + lines.number()), "the end after " + counted(count, "point"),
               "POINTS " + std::to_string(body.header.points));
   }
   return assemble_cloud(body.header.fields, body.roles, rows.columns(false), count);
@@ -98,9 +97,9 @@ RawCloud read_binary(const PcdBody& body) {
   const std::size_t present = body.bytes().size();
   // Bytes behind the last point are padding of the writer.
   if (needed > present) {
-    body.fail(body.position(0), std::to_string(present) + " bytes after the header",
-              std::to_string(body.header.points) + " points of " + std::to_string(point_bytes) +
-                  " bytes = " + std::to_string(needed) + " bytes");
+    body.fail(
+        body.position(0), counted(present, "byte") + " after the header",
+        counted(body.header.points, "point") + " of " + counted(point_bytes, "byte") + " = " + counted(needed, "byte"));
   }
   std::vector<ColumnView> columns;
   const char* place = body.bytes().data();
@@ -116,22 +115,22 @@ FileBytes decompress(const PcdBody& body) {
   const std::string_view bytes = body.bytes();
   if (bytes.size() < kSizes) {
     if (body.header.points == 0) return {};
-    body.fail(body.position(0), std::to_string(bytes.size()) + " bytes after the header", "8 bytes with the two sizes");
+    body.fail(body.position(0), counted(bytes.size(), "byte") + " after the header", "8 bytes with the two sizes");
   }
   const std::size_t packed = load_bytes<std::uint32_t>(bytes, 0);
   const std::size_t unpacked = load_bytes<std::uint32_t>(bytes, 4);
   if (packed > bytes.size() - kSizes) {
-    body.fail(body.position(0), "a compressed size of " + std::to_string(packed) + " bytes",
+    body.fail(body.position(0), "a compressed size of " + counted(packed, "byte"),
               "at most the " + std::to_string(bytes.size() - kSizes) + " that follow");
   }
   if (unpacked > packed * kLzfLargestExpansion) {
-    body.fail(body.position(4), "an uncompressed size of " + std::to_string(unpacked) + " bytes",
+    body.fail(body.position(4), "an uncompressed size of " + counted(unpacked, "byte"),
               "at most 88 times the compressed " + std::to_string(packed));
   }
   FileBytes result{body.file.path, std::make_unique_for_overwrite<char[]>(unpacked + 1), unpacked};
   const auto wrong = lzf_decompress(bytes.substr(kSizes, packed), std::span(result.data.get(), unpacked));
   if (wrong) {
-    body.fail(body.position(kSizes + *wrong), "LZF data that does not give " + std::to_string(unpacked) + " bytes",
+    body.fail(body.position(kSizes + *wrong), "LZF data that does not give " + counted(unpacked, "byte"),
               "whole compressed data");
   }
   return result;
@@ -144,9 +143,8 @@ RawCloud read_compressed(const PcdBody& body) {
   for (const Field& field : body.header.fields) unpadded += field.name == "_" ? 0 : field.bytes();
   const bool with_padding = unpacked.size == body_size(body, body.header.point_bytes());
   if (!with_padding && unpacked.size != body_size(body, unpadded)) {
-    body.fail(
-        body.position(4), "an uncompressed size of " + std::to_string(unpacked.size) + " bytes",
-        std::to_string(body.header.points) + " points of " + std::to_string(body.header.point_bytes()) + " bytes");
+    body.fail(body.position(4), "an uncompressed size of " + counted(unpacked.size, "byte"),
+              counted(body.header.points, "point") + " of " + counted(body.header.point_bytes(), "byte"));
   }
   std::vector<ColumnView> columns;
   std::size_t place = 0;

@@ -72,7 +72,7 @@ class PlyHeaderParser {
     } else if (words.size() == 3) {
       property = {std::string(words[2]), type_of(words[1]), std::nullopt};
     } else {
-      fail("a property line of " + std::to_string(words.size()) + " words",
+      fail("a property line of " + counted(words.size(), "word"),
            "property TYPE NAME, or property list TYPE TYPE NAME");
     }
     header_.elements.back().properties.push_back(property);

@@ -33,9 +33,9 @@ struct PlyBody {
 void check_count(const PlyBody& body, const PlyElement& element, std::size_t least_bytes, std::size_t present) {
   if (least_bytes == 0 || element.count <= present / least_bytes) return;
   body.fail("byte " + std::to_string(body.file.size - present),
-            "element " + in_quotes(element.name) + " with " + std::to_string(element.count) + " rows and " +
-                std::to_string(present) + " bytes left",
-            "at least " + std::to_string(least_bytes) + " bytes a row");
+            "element " + in_quotes(element.name) + " with " + counted(element.count, "row") + " and " +
+                counted(present, "byte") + " left",
+            "at least " + counted(least_bytes, "byte") + " a row");
 }
 
 // Each value of a list takes a byte at least.
@@ -45,7 +45,7 @@ std::size_t take_length(const PlyBody& body, ByteCursor& cursor, ScalarType type
   if (length >= 0 && length <= static_cast<double>(cursor.left())) return static_cast<std::size_t>(length);
   body.fail("byte " + std::to_string(body.header.body_offset + cursor.offset() - size_of(type)),
             fmt::format("a list of {:.0f} values", length),
-            "0 or more, and at most one for each of the " + std::to_string(cursor.left()) + " bytes left");
+            "0 or more, and at most one for each of the " + counted(cursor.left(), "byte") + " left");
 }
 
 // One row; `rows` is null for an element that is skipped.
@@ -92,8 +92,8 @@ std::string_view next_row(const PlyBody& body, LineScanner& lines, const PlyElem
     if (!trimmed(*line).empty()) return *line;
   }
   body.fail(at_line(body.header.lines + lines.number()),
-            "the end after " + std::to_string(row) + " rows of element " + in_quotes(element.name),
-            std::to_string(element.count) + " rows");
+            "the end after " + counted(row, "row") + " of element " + in_quotes(element.name),
+            counted(element.count, "row"));
 }
 
 void read_ascii_row(const PlyBody& body, std::string_view line, std::size_t number, const PlyElement& vertex,

@@ -38,8 +38,8 @@ double period_of_drive(const fs::path& meta_file, double otherwise_s) {
 void add_point_times(ScanListing& listing, const fs::path& folder) {
   listing.fraction_files = find_sweep_files(folder).files;
   if (listing.fraction_files.size() != listing.files.size()) {
-    throw IoError({folder, "", std::to_string(listing.fraction_files.size()) + " files of point times",
-                   "one for each of the " + std::to_string(listing.files.size()) + " sweeps in velodyne",
+    throw IoError({folder, "", counted(listing.fraction_files.size(), "file") + " of point times",
+                   "one for each of the " + counted(listing.files.size(), "sweep") + " in velodyne",
                    "Copy or write the drive again, or set point_times (--point-times) to none or azimuth"});
   }
   for (std::size_t i = 0; i < listing.files.size(); ++i) {
@@ -82,7 +82,7 @@ std::vector<std::int64_t> stamps_of_numbers(const fs::path& stamp_file, const st
   for (const fs::path& file : files) {
     const auto number = parse_unsigned(file.stem().string());
     if (!number || *number >= all.size()) {
-      throw IoError({stamp_file, "", std::to_string(all.size()) + " stamps", "one for " + file.filename().string(),
+      throw IoError({stamp_file, "", counted(all.size(), "stamp"), "one for " + file.filename().string(),
                      "Unpack the drive again"});
     }
     stamps.push_back(all[static_cast<std::size_t>(*number)]);

@@ -10,6 +10,7 @@
 #include "io/clouds/ply_header.hpp"
 #include "io/file_bytes.hpp"
 #include "io/folders/scan_listing.hpp"
+#include "io/text.hpp"
 #include "io/times/sweep_timing.hpp"
 #include "io/times/time_field.hpp"
 #include "rilo/io/cloud_reader.hpp"
@@ -79,7 +80,7 @@ std::optional<RawTimes> column_fractions(std::size_t points, std::size_t column_
 RawTimes read_fractions(const std::filesystem::path& file, std::size_t points) {
   const FileBytes bytes = read_file(file);
   if (bytes.size != points * sizeof(float)) {
-    throw IoError({file, "", std::to_string(bytes.size) + " bytes",
+    throw IoError({file, "", counted(bytes.size, "byte"),
                    std::to_string(points) + " float32, one for each point of the sweep",
                    "Copy or write the drive again, or set point_times (--point-times) to none or azimuth"});
   }

@@ -9,6 +9,7 @@
 #include "io/file_bytes.hpp"
 #include "io/folders/kitti_oxts.hpp"
 #include "io/folders/scan_listing.hpp"
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
@@ -82,8 +83,8 @@ void compare_counts(const fs::path& data, GroundTruth& truth) {
   }
   const std::size_t poses = truth.T_world_lidar.size();
   if (poses == sweeps) return;
-  truth.warnings.push_back(truth.file.filename().string() + " has " + std::to_string(poses) + " poses for " +
-                           std::to_string(sweeps) + " sweeps; the first " + std::to_string(std::min(poses, sweeps)) +
+  truth.warnings.push_back(truth.file.filename().string() + " has " + detail::counted(poses, "pose") + " for " +
+                           detail::counted(sweeps, "sweep") + "; the first " + std::to_string(std::min(poses, sweeps)) +
                            " are compared");
   if (poses > sweeps) truth.T_world_lidar.resize(sweeps);
 }

@@ -92,8 +92,8 @@ void check_synchronised(const fs::path& drive, const fs::path& data) {
   const std::size_t files = files_with(data, {".txt"}).size();
   const std::size_t sweeps = read_dates(stamps).size();
   if (files == sweeps) return;
-  throw IoError({data, "", std::to_string(files) + " files",
-                 "one for each of the " + std::to_string(sweeps) + " sweeps in " + stamps.string(),
+  throw IoError({data, "", counted(files, "file"),
+                 "one for each of the " + counted(sweeps, "sweep") + " in " + stamps.string(),
                  "Use the synchronised form of the drive (its name ends in _sync)"});
 }
 

@@ -18,8 +18,8 @@ namespace {
 std::vector<std::int64_t> stamps_for_all(const fs::path& file, const ScanListing& listing) {
   std::vector<std::int64_t> stamps = read_stamps(file);
   if (stamps.size() == listing.files.size()) return stamps;
-  throw IoError({file, "", std::to_string(stamps.size()) + " stamps",
-                 "one for each of the " + std::to_string(listing.files.size()) + " sweeps",
+  throw IoError({file, "", counted(stamps.size(), "stamp"),
+                 "one for each of the " + counted(listing.files.size(), "sweep"),
                  "Complete the data, or move times.txt away to assume a constant rate"});
 }
 
@@ -29,7 +29,7 @@ std::vector<std::int64_t> stamps_that_fit(const fs::path& file, ScanListing& lis
   try {
     std::vector<std::int64_t> stamps = read_stamp_list(file);
     if (stamps.size() == listing.files.size()) return stamps;
-    why = std::to_string(stamps.size()) + " stamps for " + std::to_string(listing.files.size()) + " sweeps";
+    why = counted(stamps.size(), "stamp") + " for " + counted(listing.files.size(), "sweep");
   } catch (const IoError& error) {
     why = error.what();
   }

@@ -10,6 +10,7 @@
 #include "io/folder_files.hpp"
 #include "io/packets/ouster.hpp"
 #include "io/packets/velodyne.hpp"
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -26,7 +27,7 @@ struct Contents {
   std::string text() const {
     std::string all;
     for (const auto& [kind, count] : counts) {
-      all += (all.empty() ? "" : ", ") + std::to_string(count) + " of " + std::to_string(kind.second) + " bytes" +
+      all += (all.empty() ? "" : ", ") + std::to_string(count) + " of " + counted(kind.second, "byte") +
              (kind.first == 0 ? "" : " to port " + std::to_string(kind.first));
     }
     return all.empty() ? "no packets" : "packets: " + all;
@@ -122,7 +123,7 @@ std::unique_ptr<PacketDecoder> find_decoder(PacketStream& stream, const fs::path
   const std::size_t bytes = ouster_packet_bytes(metadata);
   const auto fits = [&](const auto& kind) { return kind.first.second == bytes; };
   if (std::none_of(contents.counts.begin(), contents.counts.end(), fits)) {
-    throw IoError({path, "", contents.text(), "packets of " + std::to_string(bytes) + " bytes, as in " + where,
+    throw IoError({path, "", contents.text(), "packets of " + counted(bytes, "byte") + ", as in " + where,
                    "Give the metadata of this very recording with --sensor-file"});
   }
   return ouster_decoder(std::move(metadata));

@@ -169,7 +169,7 @@ OusterMetadata parse_ouster_metadata(std::string_view text, const std::filesyste
                                            std::to_string(beams) + " elevations");
   }
   if (file.count("pixels_per_column", beams, 1024) != beams) {
-    file.reject("pixels_per_column", "another number than the " + std::to_string(beams) + " beams");
+    file.reject("pixels_per_column", "another number than the " + counted(beams, "beam"));
   }
   constexpr double kFirstGenerationMm = 12.163;
   metadata.beam_origin_m = 1e-3 * file.number("lidar_origin_to_beam_origin_mm").value_or(kFirstGenerationMm);

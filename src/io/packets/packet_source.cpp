@@ -7,6 +7,7 @@
 #include "io/bad_sweeps.hpp"
 #include "io/packets/find_decoder.hpp"
 #include "io/packets/udp_reader.hpp"
+#include "io/text.hpp"
 #include "io/times/sweep_period.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
@@ -148,15 +149,14 @@ class PacketSource final : public ScanSource {
                               " incomplete revolutions at the ends of the recording");
     }
     if (unusable_ > 0) {
-      info.warnings.push_back("dropped " + std::to_string(unusable_) +
-                              " packets of another size or kind than the LiDAR's");
+      info.warnings.push_back("dropped " + counted(unusable_, "packet") + " of another size or kind than the LiDAR's");
     }
     if (info.bad_sweeps > 0) {
-      info.warnings.push_back("dropped " + std::to_string(info.bad_sweeps) + " messages that could not be read");
+      info.warnings.push_back("dropped " + counted(info.bad_sweeps, "message") + " that could not be read");
     }
     if (decoder_->clock_resets() > 0) {
-      info.warnings.push_back("the sensor's clock was set " + std::to_string(decoder_->clock_resets()) +
-                              " times: the stamps follow the recorder's");
+      info.warnings.push_back("the sensor's clock was set " + counted(decoder_->clock_resets(), "time") +
+                              ": the stamps follow the recorder's");
     }
   }
 

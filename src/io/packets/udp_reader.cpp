@@ -10,6 +10,7 @@
 
 #include "io/file_bytes.hpp"
 #include "io/raw_bytes.hpp"
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -180,8 +181,7 @@ std::optional<Datagram> UdpReader::from_udp(std::string_view udp) {
 std::vector<std::string> UdpReader::warnings() const {
   std::vector<std::string> all;
   if (cut_packets_ > 0) {
-    all.push_back(std::to_string(cut_packets_) +
-                  " packets were recorded in part only (record with a snaplen of 65535)");
+    all.push_back(counted(cut_packets_, "packet") + " recorded in part only (record with a snaplen of 65535)");
   }
   if (!end_.empty()) all.push_back("the capture ends early: " + end_ + "; what comes before is used");
   return all;

@@ -44,7 +44,7 @@ class Table {
       if (!value || !std::isfinite(*value)) fail(words.column(), detail::in_quotes(*word), "a finite number");
       values[count] = *value;
     }
-    if (count != N) fail(0, std::to_string(count) + " values", std::to_string(N) + " numbers");
+    if (count != N) fail(0, detail::counted(count, "value"), std::to_string(N) + " numbers");
     return values;
   }
 

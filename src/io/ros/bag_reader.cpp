@@ -9,6 +9,7 @@
 #include "io/file_bytes.hpp"
 #include "io/ros/recording.hpp"
 #include "io/ros/unpack.hpp"
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -47,7 +48,7 @@ class BagReader final : public Recording {
       message.received_ns = static_cast<std::int64_t>(instance.getTime().toNSec());
       const std::size_t size = instance.size();
       if (size > kLargestUnpacked) {
-        throw IoError({path_, "message " + std::to_string(taken_), std::to_string(size) + " bytes",
+        throw IoError({path_, "message " + std::to_string(taken_), counted(size, "byte"),
                        "at most " + std::to_string(kLargestUnpacked), "The bag is damaged: run rosbag reindex on it"});
       }
       bytes_.resize(size);

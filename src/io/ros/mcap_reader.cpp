@@ -205,7 +205,7 @@ class Reader final : public Recording {
     }
     if (!header.compression.empty()) compression_ = header.compression;
     if (chunk_.size() != header.unpacked_bytes) {
-      reject_chunk(std::to_string(chunk_.size()) + " bytes unpacked", std::to_string(header.unpacked_bytes));
+      reject_chunk(counted(chunk_.size(), "byte") + " unpacked", std::to_string(header.unpacked_bytes));
     }
     const std::uint32_t crc = crc_of({chunk_.data(), chunk_.size()});
     if (header.crc != 0 && crc != header.crc) {

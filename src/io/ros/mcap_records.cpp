@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include "io/ros/unpack.hpp"
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail::mcap {
@@ -76,7 +77,7 @@ RecordFile::RecordFile(const std::filesystem::path& path) : file_(path) {
   if (file_.size() >= kMagic.size()) file_.read(0, kMagic.size(), bytes_);
   if (std::string_view(bytes_.data(), bytes_.size()) == kMagic) return;
   const bool small = file_.size() < kMagic.size();
-  throw IoError({path, "byte 0", small ? "a file of " + std::to_string(file_.size()) + " bytes" : "other bytes",
+  throw IoError({path, "byte 0", small ? "a file of " + counted(file_.size(), "byte") : "other bytes",
                  "the start of an MCAP file, 89 4d 43 41 50 30 0d 0a",
                  "Check what kind of file this is; the recorder may not have got to write anything"});
 }
@@ -99,8 +100,8 @@ std::optional<Record> RecordFile::record_at(std::uint64_t offset) {
 std::string_view RecordFile::content_of(const Record& record) {
   if (record.length > kLargestUnpacked) {
     throw IoError({file_.path(), "byte " + std::to_string(record.offset),
-                   "a record of " + std::to_string(record.length) + " bytes",
-                   "at most " + std::to_string(kLargestUnpacked), "The file is damaged: copy or record it again"});
+                   "a record of " + counted(record.length, "byte"), "at most " + std::to_string(kLargestUnpacked),
+                   "The file is damaged: copy or record it again"});
   }
   file_.read(record.content, static_cast<std::size_t>(record.length), bytes_);
   return {bytes_.data(), bytes_.size()};

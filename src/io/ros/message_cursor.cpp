@@ -1,6 +1,7 @@
 #include "io/ros/message_cursor.hpp"
 
 #include "io/stamp_difference.hpp"
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -40,7 +41,7 @@ std::size_t take_count(MessageCursor& cursor, std::size_t least_item_bytes, cons
   const auto count = cursor.take<std::uint32_t>(what);
   if (count <= cursor.place().left() / least_item_bytes) return count;
   throw IoError({cursor.place().origin().file, cursor.place().position(), std::to_string(count) + " " + what,
-                 "at most what the " + std::to_string(cursor.place().left()) + " bytes that follow can hold",
+                 "at most what the " + counted(cursor.place().left(), "byte") + " that follow can hold",
                  std::string("The message is damaged, or is not a ") + type});
 }
 

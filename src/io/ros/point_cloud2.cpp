@@ -51,7 +51,7 @@ struct PointBytes {
 std::string shape_of(const PointCloud2& m) {
   return "width " + std::to_string(m.width) + ", height " + std::to_string(m.height) + ", point_step " +
          std::to_string(m.point_step) + ", row_step " + std::to_string(m.row_step) + " and " +
-         std::to_string(m.data.size()) + " bytes of data";
+         counted(m.data.size(), "byte") + " of data";
 }
 
 PointBytes points_of(const PointCloud2& m, const BytesOrigin& origin) {

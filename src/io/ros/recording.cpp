@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -45,7 +46,7 @@ class RecordingsInTurn final : public Recording {
       : files_(std::move(files)), open_(std::move(open)) {
     open_all();
     format_ = current_->format();
-    if (files_.size() > 1) format_ += ", " + std::to_string(files_.size()) + " files";
+    if (files_.size() > 1) format_ += ", " + counted(files_.size(), "file");
     if (files_.size() > 1) current_.reset();  // a single one stays open: it may have been unpacked for that
   }
 

@@ -23,7 +23,7 @@ std::string list_of(const std::vector<RecordedTopic>& topics) {
   for (const RecordedTopic& topic : topics) {
     text += (text.empty() ? "" : ", ") + topic.name + " (" + topic.type +
             (is_known_encoding(topic) ? "" : ", encoding " + in_quotes(topic.encoding)) +
-            (topic.messages ? ", " + std::to_string(*topic.messages) + " messages)" : ")");
+            (topic.messages ? ", " + counted(*topic.messages, "message") + ")" : ")");
   }
   return text.empty() ? "no topics" : text;
 }
@@ -98,7 +98,7 @@ RecordedTopic choose_topic(const std::filesystem::path& path, const std::vector<
   if (found.size() == 1) return found[0];
   if (found.size() > 1) {
     const std::string kind = is_packets(scan_form(found[0])) ? "LiDAR packets" : "point clouds";
-    throw IoError({path, "", std::to_string(found.size()) + " topics of " + kind + ": " + list_of(found), "one",
+    throw IoError({path, "", counted(found.size(), "topic") + " of " + kind + ": " + list_of(found), "one",
                    "Choose one with --topic"});
   }
   throw IoError({path, "", list_of(topics),

@@ -8,6 +8,7 @@
 #include <zstd.h>
 
 #include "io/file_bytes.hpp"
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -51,7 +52,7 @@ void unpack(const char* kind, std::string_view packed, std::size_t limit, const 
     used += written;
     place += taken;
     if (written > 0 || taken > 0) continue;
-    if (!room) fail(origin, kind, "more than " + std::to_string(limit) + " bytes come out");
+    if (!room) fail(origin, kind, "more than " + counted(limit, "byte") + " come out");
     if (place == packed.size()) fail(origin, kind, "it ends too early");
   }
   out.resize(used);

@@ -39,7 +39,7 @@ TEST(DatasetLayoutsTest, KittiRawWithWrongDates) {
   expect_io_error([&] { open_scan_source(folder / "day/drive_0001_sync"); },
                   {"timestamps.txt, line 2", "'2011-13-26 13:02:25.9'"});
   write_kitti_raw(folder, "2011-09-26 13:02:25.951199337\n");
-  expect_io_error([&] { open_scan_source(folder / "day/drive_0001_sync"); }, {"1 stamps", "0000000001.bin"});
+  expect_io_error([&] { open_scan_source(folder / "day/drive_0001_sync"); }, {"1 stamp", "0000000001.bin"});
   for (const char* line : {"2011-09-26", "2011-09-26 25:02:25.9", "2011-09-26 13:02:99", "2011-09-26 13:02:x", "x"}) {
     write_kitti_raw(folder, line);
     expect_io_error([&] { open_scan_source(folder / "day/drive_0001_sync"); }, {"timestamps.txt, line 1"});

@@ -151,7 +151,7 @@ TEST(FolderSourceTest, TimestampsThatDoNotFitAreNamed) {
   folder.write("d/lidar/timestamps.txt", "noon\n");
   const auto info = open_scan_source(folder / "d/lidar")->info();
   EXPECT_TRUE(info.stamps_assumed);
-  EXPECT_TRUE(has_warning(info, "d/timestamps.txt: 2 stamps for 1 sweeps"));
+  EXPECT_TRUE(has_warning(info, "d/timestamps.txt: 2 stamps for 1 sweep"));
   EXPECT_TRUE(has_warning(info, "lidar/timestamps.txt, line 1: 'noon'"));
   EXPECT_TRUE(has_warning(info, "no timestamps found; assuming 10 Hz"));
   // A KITTI sequence has its times beside velodyne/; what lies above that is of other data.

@@ -169,7 +169,7 @@ TEST(SequenceSourceTest, DriveSimulatorErrors) {
   std::filesystem::rename(folder / "times_pt/000001.bin", folder / "times_pt/000002.bin");
   expect_io_error([&] { open_scan_source(folder.path()); }, {"000002.bin", "beside sweep 000001.bin"});
   std::filesystem::remove(folder / "times_pt/000002.bin");
-  expect_io_error([&] { open_scan_source(folder.path()); }, {"times_pt", "1 files", "2 sweeps"});
+  expect_io_error([&] { open_scan_source(folder.path()); }, {"times_pt", "1 file", "2 sweeps"});
 }
 
 TEST(SequenceSourceTest, AzimuthTimesOnlyWhenTold) {

@@ -182,9 +182,9 @@ TEST(PacketTopicsTest, SeveralOrNoneAreListed) {
       folder.write("two.mcap", mcap_bytes({{"/velodyne_packets", type}, {"/rear/packets", type}}, messages, {}));
   expect_io_error(
       [&] { open_scan_source(two); },
-      {"2 topics of LiDAR packets", "/rear/packets (velodyne_msgs/msg/VelodyneScan, 1 messages)", "--topic"});
+      {"2 topics of LiDAR packets", "/rear/packets (velodyne_msgs/msg/VelodyneScan, 1 message)", "--topic"});
   const auto none = folder.write("none.mcap", mcap_bytes({{"/imu", "sensor_msgs/msg/Imu"}}, {{"/imu", 1, "x"}}, {}));
-  expect_io_error([&] { open_scan_source(none); }, {"/imu (sensor_msgs/msg/Imu, 1 messages)", "Livox CustomMsg"});
+  expect_io_error([&] { open_scan_source(none); }, {"/imu (sensor_msgs/msg/Imu, 1 message)", "Livox CustomMsg"});
 }
 
 // --- hostile ------------------------------------------------------------------------------------------------------
@@ -231,7 +231,7 @@ TEST(PacketTopicsTest, ATruncatedMessageIsAnErrorOrCounted) {
   const auto skipping = open_scan_source(file, options);
   EXPECT_EQ(sweeps_of(*skipping).size(), before + after);
   EXPECT_EQ(skipping->info().bad_sweeps, 1U);
-  EXPECT_TRUE(has_warning(skipping->info(), "dropped 1 messages that could not be read"));
+  EXPECT_TRUE(has_warning(skipping->info(), "dropped 1 message that could not be read"));
   EXPECT_EQ(open_scan_source(file)->skip(100), before + after);
 }
 

@@ -159,7 +159,7 @@ TEST(RecordingTest, SeveralTopics) {
   for (const std::size_t chunk : {std::size_t{0}, std::size_t{1}}) {
     const fs::path file = folder.write("two.mcap", mcap_bytes(topics, messages, {"zstd", chunk, true, "cdr"}));
     expect_io_error([&] { open_scan_source(file); },
-                    {"two.mcap", "2 topics of point clouds", "/front (sensor_msgs/msg/PointCloud2, 1 messages)",
+                    {"two.mcap", "2 topics of point clouds", "/front (sensor_msgs/msg/PointCloud2, 1 message)",
                      "/rear (sensor_msgs/msg/PointCloud2, 2 messages)", "--topic"});
     SourceOptions options;
     options.topic = "/front";

@@ -95,9 +95,30 @@ TEST(PacketClockTest, TakesAClockThatIsRightAndSetsAnyOther) {
   EXPECT_EQ(other.resets(), 0U);
   EXPECT_EQ(other.stamp_ns(900'000'000'000, kCaptureBegin + 200'000'000), kCaptureBegin + 200'000'000);
   EXPECT_EQ(other.resets(), 1U);
+  // From there at its own rate again.
+  EXPECT_EQ(other.stamp_ns(900'100'000'000, kCaptureBegin + 320'000'000), kCaptureBegin + 300'000'000);
   detail::PacketClock absolute(0);
   EXPECT_EQ(absolute.stamp_ns(kCaptureBegin - 37, kCaptureBegin), kCaptureBegin - 37);
   EXPECT_EQ(absolute.stamp_ns(INT64_MAX, kCaptureBegin), kCaptureBegin);  // damaged: no overflow
+}
+
+// The hour of the sensor may end before or after that of the recorder, whatever the sign.
+TEST(PacketClockTest, TheHourIsTheNearest) {
+  constexpr std::int64_t kHour = 3'600'000'000'000;
+  constexpr std::int64_t kLittle = 100'000'000;
+  for (const std::int64_t hours : {-3, 0, 1, 7}) {
+    EXPECT_EQ(detail::PacketClock(kHour).stamp_ns(kLittle, hours * kHour - kLittle), hours * kHour + kLittle);
+    EXPECT_EQ(detail::PacketClock(kHour).stamp_ns(kHour - kLittle, hours * kHour + kLittle), hours * kHour - kLittle);
+  }
+}
+
+TEST(PacketClockTest, AClockThatGoesASecondApartIsSet) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  detail::PacketClock clock(0);
+  EXPECT_EQ(clock.stamp_ns(kCaptureBegin - kSecond, kCaptureBegin), kCaptureBegin - kSecond);
+  EXPECT_EQ(clock.resets(), 0U);
+  EXPECT_EQ(clock.stamp_ns(kCaptureBegin - kSecond - 1, kCaptureBegin), kCaptureBegin);
+  EXPECT_EQ(clock.resets(), 1U);
 }
 
 TEST(PacketSourceTest, HostileBytes) {

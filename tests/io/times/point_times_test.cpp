@@ -254,6 +254,7 @@ TEST(PointTimesTest, ExtremeIntegersDoNotOverflow) {
 TEST(PoseStampTest, TheStampWithinAMicrosecond) {
   EXPECT_EQ(pose_stamp_ns(-594, 0), 0);
   EXPECT_EQ(pose_stamp_ns(1000, 0), 0);
+  EXPECT_EQ(pose_stamp_ns(-1000, 0), 0);
   EXPECT_EQ(pose_stamp_ns(1001, 0), 1001);
   EXPECT_EQ(pose_stamp_ns(-1001, 0), -1001);
   EXPECT_EQ(pose_stamp_ns(std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()),

@@ -4,6 +4,7 @@
 #include "io/io_test_util.hpp"
 #include "results/pose_files.hpp"
 #include "results/run_truth.hpp"
+#include "results/sweep_times.hpp"
 #include "rilo/io/trajectory_files.hpp"
 #include "rilo/session/session.hpp"
 
@@ -90,6 +91,30 @@ TEST(PosePairing, TheFirstLineThatIsNoCommentShowsTheForm) {
   EXPECT_EQ(poses.trajectory.at(0).stamp_ns, 1'500'000'000);
 }
 
+TEST(SweepTimes, AsTheDataSayOrAsPosesMayBeStamped) {
+  const TempDir folder;
+  const std::string point = bytes_of<float>({1, 2, 3, 0});
+  for (const char* name : {"0.bin", "1.bin", "2.bin"}) folder.write(std::string("bin/velodyne/") + name, point);
+  EXPECT_THAT(sweep_times(folder / "bin", PoseInstant::kMid).stamps_ns, SizeIs(0));  // a rate is assumed
+  folder.write("bin/times.txt", "7\n7.1\n7.2\n");
+  const SweepTimes stamped = sweep_times(folder / "bin", PoseInstant::kMid);
+  EXPECT_THAT(stamped.stamps_ns, ElementsAre(7'000'000'000, 7'100'000'000, 7'200'000'000));
+  EXPECT_THAT(stamped.offsets_ns, ElementsAre(0, 0, 50'000'000));
+
+  // Points that are timed from an epoch: the sweep begins 30 ms after the time in the file's name.
+  const auto ply = [](const std::string& seconds) {
+    return "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+           "property double timestamp\nend_header\n1 2 3 " +
+           seconds + ".03\n1 2 3 " + seconds + ".11\n";
+  };
+  folder.write("ply/1600000000000000000.ply", ply("1600000000"));
+  folder.write("ply/1600000001000000000.ply", ply("1600000001"));
+  const auto offset_ns = [&](PoseInstant instant) { return sweep_times(folder / "ply", instant).offsets_ns.at(0); };
+  EXPECT_NEAR(static_cast<double>(offset_ns(PoseInstant::kStart)), 30e6, 1e3);
+  EXPECT_NEAR(static_cast<double>(offset_ns(PoseInstant::kMid)), 70e6, 1e3);
+  EXPECT_NEAR(static_cast<double>(offset_ns(PoseInstant::kEnd)), 110e6, 1e3);
+}
+
 /// Sweeps 3 and 5 of the data, 100 ms apart.
 RunRecord of_two_sweeps() {
   RunRecord run;
@@ -141,6 +166,19 @@ TEST(PosesOfSweeps, InTheCameraFrame) {
   run.source.T_cam_lidar = T_cam_lidar;
   const auto poses = poses_of_sweeps({folder / "cam.txt", true}, run);
   EXPECT_LT((poses[1]->translation() - Eigen::Vector3d(2, 0, 0)).norm(), 1e-12);
+}
+
+TEST(PosesOfSweeps, AWarningAboutTheTruthIsOneOfTheRun) {
+  const TempDir folder;
+  folder.write("poses_velo.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n");
+  RunRecord run = of_two_sweeps();
+  run.data = folder.path();
+  run.indices = {0, 1};
+  run.pose_instant = PoseInstant::kEnd;
+  evaluate_run(run);
+  EXPECT_EQ(run.truth_error, "");
+  EXPECT_EQ(run.evaluation->poses, 2U);
+  EXPECT_THAT(run.source.warnings, ElementsAre(HasSubstr("poses_velo.txt is at the stamps, not at the end")));
 }
 
 TEST(PosesOfSweeps, OnlySweepsWithBothAreCompared) {

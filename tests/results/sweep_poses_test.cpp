@@ -80,14 +80,14 @@ TEST(SweepPoses, PointsAreMovedToTheMiddleOfTheSweep) {
   pose.twist(3) = 10;
   EXPECT_EQ(points_at(sweep, pose), sweep.points);
   sweep.stamp_ns = 7 * kMs;
-  sweep.times_s = {0.02F, 0.12F, 0.07F, std::numeric_limits<float>::quiet_NaN()};
+  sweep.times_s = {std::numeric_limits<float>::quiet_NaN(), 0.02F, 0.12F, 0.07F};
   EXPECT_EQ(middle_ns(sweep), 77 * kMs);
   const auto points = points_at(sweep, pose);
   ASSERT_EQ(points.size(), 4U);
-  EXPECT_NEAR(points[0].x(), 0.5, 1e-6);
-  EXPECT_NEAR(points[1].x(), 1.5, 1e-6);
-  EXPECT_NEAR(points[2].x(), 1, 1e-6);
-  EXPECT_TRUE(std::isnan(points[3].x()));
+  EXPECT_TRUE(std::isnan(points[0].x()));
+  EXPECT_NEAR(points[1].x(), 0.5, 1e-6);
+  EXPECT_NEAR(points[2].x(), 1.5, 1e-6);
+  EXPECT_NEAR(points[3].x(), 1, 1e-6);
   EXPECT_EQ(instant_s(sweep.times_s, PoseInstant::kStart), 0.02F);
   EXPECT_EQ(instant_s(sweep.times_s, PoseInstant::kEnd), 0.12F);
 }

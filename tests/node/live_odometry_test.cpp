@@ -183,7 +183,7 @@ TEST_F(RunningNode, SetPoseMovesWhatFollowsAndThePath) {
 
 std::vector<Eigen::Vector3f> points_of(const CloudMessage& cloud) {
   std::vector<Eigen::Vector3f> points(cloud.width);
-  std::memcpy(points.data(), cloud.data.data(), cloud.data.size());
+  std::memcpy(points.data()->data(), cloud.data.data(), cloud.data.size());
   return points;
 }
 

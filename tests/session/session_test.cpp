@@ -69,6 +69,7 @@ class Log final : public SessionObserver {
     EXPECT_EQ(sweep.odometry.trajectory().size(), indices.size() + 1);
     indices.push_back(sweep.index);
   }
+  void on_trial(const CompensationTrial& /*trial*/) override { ++trials; }
   void on_warning(const std::string& warning) override { warnings.push_back(warning); }
   void on_restart(const Restart& restart) override {
     restarts.push_back(restart);
@@ -81,6 +82,7 @@ class Log final : public SessionObserver {
   std::vector<std::size_t> indices;
   std::vector<std::string> warnings;
   std::vector<Restart> restarts;
+  std::size_t trials = 0;
   std::size_t points_at_end = 0;
 };
 
@@ -94,6 +96,7 @@ TEST(Session, TellsItsObserversAndGivesAllSweeps) {
   EXPECT_EQ(run.indices, log.indices);
   EXPECT_EQ(log.names.back(), "sweep " + std::to_string(kSweeps - 1));
   EXPECT_THAT(log.warnings, testing::ElementsAre("the third"));
+  EXPECT_EQ(log.trials, 0U) << "the points have times";
   EXPECT_GT(log.points_at_end, 0U);
   EXPECT_FALSE(run.interrupted);
   EXPECT_GT(run.wall_s, 0.0);
@@ -130,6 +133,12 @@ TEST(Session, NothingLearntIsNoReasonToStartOver) {
   EXPECT_EQ(run.results.size(), kSweeps);
   options.one_pass = true;
   EXPECT_EQ(poses(Session(open_drive, options).run()), poses(run));
+  options.one_pass = false;
+  options.count = 5;
+  options.config.elevation.initial_deg = 0.1;  // given, not learnt
+  const SessionResult few = Session(open_drive, options).run();
+  EXPECT_FALSE(few.restart);
+  EXPECT_EQ(few.results.size(), 5U);
 }
 
 TEST(Session, OnePassStaysAsItWas) {
@@ -161,6 +170,29 @@ TEST(Session, AnInterruptEndsItAfterTheSweep) {
   EXPECT_TRUE(run.interrupted);
   EXPECT_EQ(run.failure, nullptr);
   EXPECT_EQ(run.results.size(), 4U);
+  // Before the first one, too; and what the first pass did is not given up for a second that will not come.
+  options.interrupted = [] { return true; };
+  const SessionResult nothing = Session(open_drive, options).run();
+  EXPECT_EQ(nothing.failure, nullptr);
+  EXPECT_TRUE(nothing.results.empty());
+  options = soon_certain();
+  asked = 0;
+  options.interrupted = [&asked] { return ++asked > 20; };
+  const SessionResult first_pass = Session(open_drive, options).run();
+  EXPECT_FALSE(first_pass.restart);
+  EXPECT_EQ(first_pass.results.size(), 20U);
+}
+
+// Times of the points that are a little uneven about the stamp: the middle is 0.3 µs later.
+TEST(Session, APoseAtTheStampHasTheStamp) {
+  Sweep sweep = drive()[0];
+  sweep.stamp_ns = 1'700'000'000'123'456'789;
+  sweep.times_s.assign(sweep.points.size(), 0.0F);
+  sweep.times_s.front() = -0.05F;
+  sweep.times_s.back() = 0.0500006F;
+  const SessionResult run =
+      Session([&] { return std::make_unique<SweepsSource>(std::vector<Sweep>{sweep}); }, {}).run();
+  EXPECT_EQ(run.results.at(0).stamp_ns, sweep.stamp_ns);
 }
 
 TEST(Session, ASecondPassThatIsEndedEarlyKeepsWhatTheFirstLearnt) {

@@ -23,7 +23,7 @@ PoseFile accelerating(const std::vector<std::int64_t>& stamps_ms) {
     StampedPose pose;
     pose.stamp_ns = file.stamped ? stamps_ms.at(i) * kMs : 0;
     pose.T_odom_lidar = SE3(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()));
-    pose.T_odom_lidar.translation().y() = static_cast<double>(i * (i + 1) / 2);
+    pose.T_odom_lidar.translation().y() = 0.5 * static_cast<double>(i * (i + 1));
     file.trajectory.push_back(pose);
   }
   return file;

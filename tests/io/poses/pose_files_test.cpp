@@ -158,6 +158,20 @@ TEST(PoseFileTest, KittiErrorsHaveLineAndColumn) {
   expect_io_error([&] { read_kitti_poses(folder.path()); }, {"it is a folder"});
 }
 
+TEST(PoseFileTest, OfAFileThatGrowsOnlyWholeLines) {
+  const TempDir folder;
+  const auto file = folder.write("k.txt", "1 0 0 5 0 1 0 0 0 0 1 0\n1 0 0 6 0 1 0 0 0 0 1 1");  // 10 or 12 is to come
+  EXPECT_EQ(read_growing_kitti_poses(file).size(), 1U);
+  EXPECT_EQ(read_kitti_poses(file).size(), 2U);
+  EXPECT_TRUE(read_growing_kitti_poses(folder.write("first.txt", "1 0 0")).empty());
+}
+
+TEST(PoseFileTest, TheTransformIsTheLineThatBeginsWithItsName) {
+  const TempDir folder;
+  const auto file = folder.write("calib.txt", "of_Tr: none\nTr: 1 0 0 0.5 0 1 0 0 0 0 1 0\n");
+  EXPECT_EQ(read_kitti_calibration(file).value().translation().x(), 0.5);
+}
+
 // RᵀR may be off by a thousandth, and so may a quaternion's length, which is made good.
 TEST(PoseFileTest, RotationsAreSuchToThreeDigits) {
   const TempDir folder;

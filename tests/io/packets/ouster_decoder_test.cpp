@@ -85,7 +85,7 @@ TEST(OusterMetadataTest, TheWindowMayLieAcrossTheEndOfTheTurn) {
   EXPECT_EQ(sent("[0, 1023]"), 1024U);
   EXPECT_EQ(sent("[0, 511]"), 512U);
   EXPECT_EQ(sent("[5, 5]"), 1U);
-  EXPECT_EQ(sent("[768, 255]"), 512U);
+  EXPECT_EQ(sent("[768, 127]"), 384U);
   expect_io_error([&] { sent("[0, 1024]"); }, {"column_window", "column 1024"});
 }
 

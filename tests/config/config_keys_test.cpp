@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "config/field_count.hpp"
+#include "config/nearest_word.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/config/config_key.hpp"
 
@@ -38,6 +39,25 @@ std::map<std::string, std::string> values_of(OdometryConfig config) {
   std::map<std::string, std::string> values;
   for (const ConfigKey& key : all_keys(odometry_keys(config))) values[key.name()] = key.value();
   return values;
+}
+
+// A part of a name in the wrong section counts one more than the same part elsewhere.
+TEST(ConfigKeys, NearestOfNamesInAndOutOfSections) {
+  double value = 0;
+  ConfigKeys keys;
+  keys.real({"gates", "", "", ""}, value, 0, 1);
+  keys.section("other", "");
+  keys.real({"gate", "", "", ""}, value, 0, 1);
+  EXPECT_EQ(keys.nearest("gate"), "gates or other.gate");
+  EXPECT_EQ(keys.nearest("other.gat"), "other.gate");
+  EXPECT_NE(keys.find("expert.other.gate"), nullptr);
+  EXPECT_EQ(keys.find("expert-other.gate"), nullptr);
+}
+
+TEST(NearestWord, DiffersInHalfOfItsLettersAtMost) {
+  EXPECT_EQ(nearest_word("abcd", {"wxyz", "abyz"}), "abyz");
+  EXPECT_EQ(nearest_word("abcd", {"wxyz", "axyz"}), "");
+  EXPECT_EQ(nearest_word("abcd", {"abyz", "abcdefghijkl"}), "abcdefghijkl");
 }
 
 TEST(ConfigKeys, every_field_of_every_stage_has_a_key) {

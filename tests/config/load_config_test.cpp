@@ -52,6 +52,12 @@ TEST(LoadConfig, a_part_of_the_keys_changes_that_part_of_the_base) {
 
 TEST(LoadConfig, dotted_keys_are_keys) { EXPECT_EQ(parse_config("icp.gate: 4", "dotted").icp.gate, 4.0); }
 
+TEST(LoadConfig, a_word_may_stand_in_quotes) {
+  EXPECT_EQ(parse_config("initial_pose: {rule: \"fixed_tau\"}", "quotes").initial_pose.rule,
+            InitialPoseRule::kFixedTau);
+  EXPECT_EQ(parse_config("initial_pose: {rule: 'map_score'}", "quotes").initial_pose.rule, InitialPoseRule::kMapScore);
+}
+
 TEST(LoadConfig, expert_keys_are_taken_with_and_without_their_heading) {
   const OdometryConfig config =
       parse_config("icp: {noise_m: 0.03}\nexpert:\n  icp: {gate: 4}\n  map: {levels: 3}\n", "expert");

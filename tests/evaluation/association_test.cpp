@@ -44,6 +44,8 @@ TEST(MatchByStamp, ATruePoseIsUsedOnceByTheNearest) {
   const MatchedPoses m = match_by_stamp(stamped({0, 100}), stamped({92, 99, 103, 1}), 20);
   EXPECT_THAT(places(m.truth), ElementsAre(0, 1));
   EXPECT_THAT(m.estimate_index, ElementsAre(3, 1));
+  // Of two that are equally near, by the first.
+  EXPECT_THAT(match_by_stamp(stamped({0, 100}), stamped({1, 95, 105}), 20).estimate_index, ElementsAre(0, 1));
 }
 
 TEST(MatchByStamp, OrderDoesNotMatterAndPosesFollow) {

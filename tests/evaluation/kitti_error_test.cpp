@@ -37,13 +37,18 @@ TEST(KittiError, OnePercentOfScale) {
   for (const KittiLengthError& row : rows) EXPECT_NEAR(row.t_rel_pct, 1.0, 1e-9);
 }
 
-// A heading that turns by 0.01 degree a metre beside a straight truth: 1 degree per 100 m over every length.
-TEST(KittiError, ConstantYawDrift) {
+// A heading that turns by 0.01 degree a metre beside a straight truth of 500 m.
+KittiError of_constant_yaw_drift() {
   const double drift_rad = 0.01 * std::numbers::pi / 180.0;
   const std::vector<SE3> truth = straight_line(501, 1.0);
   std::vector<SE3> estimate{SE3::Identity()};
   while (estimate.size() < truth.size()) estimate.push_back(estimate.back() * pose(1.0, 0, 0, drift_rad));
-  const KittiError error = kitti_error(truth, estimate);
+  return kitti_error(truth, estimate);
+}
+
+// 1 degree per 100 m over every length.
+TEST(KittiError, ConstantYawDrift) {
+  const KittiError error = of_constant_yaw_drift();
   EXPECT_NEAR(error.r_rel_deg_100m().value(), 1.0, 1e-6);
   // Segment of 100 m: the ends of an arc of 1 degree and of its tangent lie about L * angle / 2 apart.
   EXPECT_NEAR(error.per_length()[0].t_rel_pct, 100.0 * std::numbers::pi / 180.0 / 2.0, 0.01);
@@ -83,6 +88,22 @@ TEST(KittiError, ShortPathsFallBackToEighths) {
   EXPECT_NEAR(error.t_rel_pct().value(), 2.0, 1e-9);
 }
 
+TEST(KittiError, FromExactly150MetresOnThePathIsLong) {
+  const std::vector<SE3> truth = straight_line(151, 1.0);
+  const KittiError error = kitti_error(truth, truth);
+  EXPECT_FALSE(error.short_path);
+  EXPECT_EQ(error.segments.size(), 6U);  // of 100 m, from 0, 10 … 50 m on
+}
+
+// A turn by 45 degrees as a text of three digits has it: not quite a rotation.
+TEST(KittiError, EqualPosesOfFewDigitsAreNoError) {
+  std::vector<SE3> poses = straight_line(121, 1.0);
+  for (SE3& T : poses) T.linear() << 0.707, -0.707, 0, 0.707, 0.707, 0, 0, 0, 1;
+  EXPECT_NEAR(kitti_error(poses, poses).t_rel_pct().value(), 0.0, 1e-9);
+  EXPECT_NEAR(kitti_error(poses, poses).r_rel_deg_100m().value(), 0.0, 1e-4);
+  EXPECT_TRUE(alignment_of(poses, poses, Alignment::kFirstPose).isApprox(SE3::Identity(), 1e-12));
+}
+
 TEST(KittiError, SegmentsEndAtTheFirstPoseFarEnough) {
   const std::vector<SE3> truth = straight_line(60, 3.0);  // poses at 0, 3, 6 … 177 m
   const KittiError error = kitti_error(truth, truth);
@@ -102,6 +123,7 @@ TEST(KittiError, OwnLengths) {
   EXPECT_THROW(kitti_error(truth, truth, {0.0}), std::invalid_argument);
   EXPECT_THROW(kitti_error(truth, truth, {-5.0}), std::invalid_argument);
   EXPECT_THROW(kitti_error(truth, truth, {std::numeric_limits<double>::quiet_NaN()}), std::invalid_argument);
+  EXPECT_THROW(kitti_error(truth, truth, {std::numeric_limits<double>::infinity()}), std::invalid_argument);
 }
 
 TEST(KittiError, ASensorAtRestHasNoRelativeError) {
@@ -136,6 +158,14 @@ TEST(KittiBenchmark, PooledAndPerSequenceMeansDiffer) {
   EXPECT_EQ(benchmark.per_length[0].count, 91U + 11U);
   EXPECT_NEAR(benchmark.per_length[0].t_rel_pct, (91.0 + 33.0) / 102.0, 1e-9);
   EXPECT_FALSE(kitti_benchmark({}).pooled_t_rel_pct.has_value());
+}
+
+// 41 + 31 + 21 + 11 + 1 = 105 segments with 1 degree per 100 m, 12 without an error.
+TEST(KittiBenchmark, SoDoThoseOfRotations) {
+  const std::vector<SE3> straight = straight_line(201, 1.0);
+  const KittiBenchmark benchmark = kitti_benchmark({of_constant_yaw_drift(), kitti_error(straight, straight)});
+  EXPECT_NEAR(benchmark.sequence_mean_r_rel_deg_100m.value(), 0.5, 1e-6);
+  EXPECT_NEAR(benchmark.pooled_r_rel_deg_100m.value(), 105.0 / 117.0, 1e-6);
 }
 
 }  // namespace

@@ -99,6 +99,74 @@ TEST(MapQuality, IslandsByHand) {
   EXPECT_NEAR(quality.mean_map_entropy.value(), entropy, 1e-12);
 }
 
+// Discs of 13 points of a lattice (i² + j² ≤ 4), one for each height: the first of nine sweeps sees their centres only,
+// the others all points, so much too high and too low in turn. j is squeezed by `squeeze`.
+Drive discs(const std::vector<double>& heights_m, double squeeze = 1) {
+  constexpr double kPitch = 0.125;
+  Drive drive;
+  for (int s = 0; s < 9; ++s) {
+    Points points;
+    for (std::size_t disc = 0; disc < heights_m.size(); ++disc) {
+      const double up = s == 0 ? 0 : (s % 2 == 0 ? heights_m[disc] : -heights_m[disc]);
+      for (int i = -2; i <= 2; ++i) {
+        for (int j = -2; j <= 2; ++j) {
+          if (i * i + j * j > (s == 0 ? 0 : 4)) continue;
+          points.push_back(
+              Eigen::Vector3d(5 + static_cast<double>(disc) + i * kPitch, j * kPitch * squeeze, up - 1).cast<float>());
+        }
+      }
+    }
+    drive.sweeps.push_back(points);
+    drive.poses.push_back(SE3::Identity());
+  }
+  return drive;
+}
+
+// The mean square height is that of the disc: figures of five discs by hand.
+TEST(MapQuality, PercentileByHand) {
+  constexpr double kStep = 1.0 / 256;
+  const Drive drive = discs({2 * kStep, kStep, 5 * kStep, 4 * kStep, 3 * kStep});
+  const MapQuality quality = map_quality(drive.sweeps, drive.poses, every_sweep(9));
+  EXPECT_EQ(quality.plane_rms_m.count, 5U);
+  EXPECT_NEAR(quality.plane_rms_m.median, 3 * kStep, 1e-12);
+  EXPECT_NEAR(quality.plane_rms_p75_m, 4 * kStep, 1e-12);
+}
+
+// The outermost points are exactly at the radius. A place has 8 · 13 + 1 points of 9 sweeps.
+TEST(MapQuality, WhatIsJustEnoughCounts) {
+  Drive drive = discs({0, 0});
+  MapQualityConfig config = every_sweep(9);
+  const auto places = [&] { return map_quality(drive.sweeps, drive.poses, config).places; };
+  config.radius_m = 0.25;
+  config.min_neighbours = 105;
+  config.min_sweeps = 9;
+  EXPECT_EQ(places(), 2U);
+  config.min_neighbours = 106;
+  EXPECT_EQ(places(), 0U);
+  config.min_neighbours = 50;
+  drive.sweeps.back().clear();
+  EXPECT_EQ(places(), 0U);
+}
+
+// Along 14 pitch² / 13 on average, across a 64th of it, and 1/64 m up: a stick, whose middle eigenvalue is too small.
+TEST(MapQuality, AStickIsNoPlane) {
+  const Drive drive = discs({1.0 / 64}, 1.0 / 8);
+  const MapQuality quality = map_quality(drive.sweeps, drive.poses, every_sweep(9));
+  EXPECT_EQ(quality.places, 1U);
+  EXPECT_EQ(quality.plane_rms_m.count, 0U);
+}
+
+// The second of two windows begins with the fifth sweep.
+TEST(MapQuality, PlacesAreThoseOfTheFirstSweepOfTheWindow) {
+  std::vector<Points> sweeps(13, Points(10, {10, 0, 0}));
+  sweeps[0].resize(7);
+  sweeps[4].resize(5);
+  MapQualityConfig config = every_sweep(9);
+  EXPECT_EQ(map_quality(sweeps, std::vector<SE3>(13, SE3::Identity()), config).places, 7U + 5U);
+  config.points_per_sweep = 4;
+  EXPECT_EQ(map_quality(sweeps, std::vector<SE3>(13, SE3::Identity()), config).places, 4U + 4U);
+}
+
 TEST(MapQuality, IsTheNoiseOfThePlanes) {
   for (const double noise_m : {0.005, 0.02}) {
     const Drive drive = floor_and_wall(30, 6000, noise_m);
@@ -185,8 +253,9 @@ TEST(MapQuality, NothingToSee) {
   const Points nothing;
   const Points one = {{10, 0, 0}};
   const Points not_finite = {{nan, 0, 0}, {10, std::numeric_limits<float>::infinity(), 0}};
-  const Points out_of_range = {{1, 0, 0}, {50, 0, 0}};
-  for (const Points& points : {nothing, one, not_finite, out_of_range}) {
+  const Points too_near(10, {1, 0, 0});
+  const Points too_far(10, {50, 0, 0});
+  for (const Points& points : {nothing, one, not_finite, too_near, too_far}) {
     const MapQuality quality = map_quality(std::vector<Points>(30, points), poses);
     EXPECT_EQ(quality.sweeps, 30U);
     EXPECT_EQ(quality.windows, 1U);

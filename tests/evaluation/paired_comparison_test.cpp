@@ -36,17 +36,19 @@ TEST(PairedComparison, ALostDriveIsListedAndCountsForTheOther) {
                                             {"we fail", std::nullopt, 1},
                                             {"they drift", 1, 100},
                                             {"they fail", 1, nan},
+                                            {"they give up", 1, std::nullopt},
                                             {"both", 50, std::nullopt}},
                                            kLost);
   EXPECT_THAT(c.lost_by_us, ElementsAre("we drift", "we fail", "both"));
-  EXPECT_THAT(c.lost_by_them, ElementsAre("they drift", "they fail", "both"));
+  EXPECT_THAT(c.lost_by_them, ElementsAre("they drift", "they fail", "they give up", "both"));
   EXPECT_NEAR(c.mean_ratio.value(), 0.25, 1e-12);
   // 1/4 · 25 · 1/100 = 1/16; the cube root of it.
   EXPECT_NEAR(c.mean_ratio_all.value(), 0.39685026299204984, 1e-12);
   EXPECT_EQ(c.worst_drive, "we drift");
-  EXPECT_EQ(c.ahead, 3U);   // good, they drift, they fail
+  EXPECT_EQ(c.ahead, 4U);   // good, they drift, they fail, they give up
   EXPECT_EQ(c.behind, 2U);  // we drift, we fail
-  EXPECT_EQ(c.drives, 6U);
+  EXPECT_EQ(c.drives, 7U);
+  EXPECT_THAT(compare_pairs({{"at the limit", kLost, 1}}, kLost).lost_by_us, IsEmpty());
 }
 
 TEST(PairedComparison, EqualFiguresAndZeros) {

@@ -2,6 +2,7 @@
 #include "rilo/node/live_odometry.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <mutex>
 
@@ -10,6 +11,7 @@
 #include "io/io_test_util.hpp"
 #include "node/base_frame.hpp"
 #include "node/running_node.hpp"
+#include "rilo/node/node_parameters.hpp"
 
 namespace rilo {
 namespace {
@@ -177,6 +179,60 @@ TEST_F(RunningNode, SetPoseMovesWhatFollowsAndThePath) {
   EXPECT_THAT(odometry.set_initial_pose("map", {0, 0, 0}, turned), HasSubstr("expected odom"));
   EXPECT_EQ(odometry.set_initial_pose("odom", {1, 2, 3}, turned), "");
   EXPECT_LT((odometry.path().poses[3].pose.position - Eigen::Vector3d(1, 2, 3)).norm(), 1e-9);
+}
+
+std::vector<Eigen::Vector3f> points_of(const CloudMessage& cloud) {
+  std::vector<Eigen::Vector3f> points(cloud.width);
+  std::memcpy(points.data()->data(), cloud.data.data(), cloud.data.size());
+  return points;
+}
+
+// 0.5 m above the base, and turned: given, so it is not looked up. What is set moves the map with the poses.
+TEST(LiveOdometry, MapsAndSpeedsAreThoseOfTheBase) {
+  NodeOptions options = at_once();
+  options.base_frame = "base_link";
+  options.base_to_lidar = {1, 0, 0.5, 1.5, 0, 0};
+  Output output;
+  LiveOdometry odometry(options, "/points", output);
+  odometry.start();
+  Odometry library(OdometryConfig{});
+  const SE3 T_base_lidar = pose_from_list(options.base_to_lidar);
+  SE3 T_odom_base = SE3::Identity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    odometry.push(message(i));
+    ASSERT_TRUE(output.wait_poses(i + 1));
+    const SweepResult result = of_base(library.register_sweep(drive()[i]), T_base_lidar, SE3::Identity());
+    T_odom_base = result.T_odom_lidar;
+    EXPECT_EQ(output.odometry.back().twist_covariance,
+              odometry_message(result, i == 0 ? 0 : 0.1, "", "").twist_covariance);
+  }
+  EXPECT_TRUE(output.asked.empty());
+  const Eigen::Vector3d first = library.local_map().front().cast<double>();
+  const auto shown = [&] { return points_of(odometry.local_map()).front(); };
+  EXPECT_LT((shown() - (T_base_lidar * first).cast<float>()).norm(), 1e-4F);
+  const SE3 wanted = pose_from_list({100, -50, 3, 1.2, 0, 0});
+  EXPECT_EQ(odometry.set_initial_pose("", wanted.translation(), Eigen::Quaterniond(wanted.linear())), "");
+  EXPECT_LT((shown() - (wanted * T_odom_base.inverse() * T_base_lidar * first).cast<float>()).norm(), 1e-4F);
+}
+
+TEST(LiveOdometry, AfterAResetPathsAndMapsComeAtOnceAndOfNothingBefore) {
+  Output output;
+  NodeOptions options = at_once();
+  options.path_period_s = options.local_map_period_s = 1e6;
+  options.map_voxel_m = 0.5;
+  LiveOdometry odometry(options, "/points", output);
+  odometry.start();
+  odometry.push(message(0));
+  odometry.push(message(1));
+  ASSERT_TRUE(output.wait_poses(2));
+  odometry.reset();
+  const test::TempDir folder;
+  EXPECT_EQ(odometry.save_map((folder.path() / "map.ply").string()).points, 0U);
+  odometry.push(message(2));
+  ASSERT_TRUE(output.wait_poses(3));
+  odometry.stop();
+  EXPECT_EQ(output.paths.size(), 2U);
+  EXPECT_EQ(output.maps.size(), 2U);
 }
 
 TEST_F(RunningNode, KeysOfTheConfigurationCountFromTheNextResetOn) {

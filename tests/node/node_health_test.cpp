@@ -79,6 +79,25 @@ TEST(NodeHealth, WhenNoMessageCanBeReadItIsAnError) {
   EXPECT_EQ(health.report({3, 0, 0}).level, NodeLevel::kWarn);
 }
 
+// Of what was counted before, only what came since the last report.
+TEST(NodeHealth, ReportsTellWhatIsNewAndTheWorstOfIt) {
+  NodeHealth health;
+  health.note_sweep(with_status(OdometryStatus::kLost), 30);
+  health.note_sweep(with_status(OdometryStatus::kLost), 10);
+  health.note_lost(3);
+  health.report({10, 2, 0});
+  health.note_lost(5);
+  health.note_bad_message("no x");
+  const StatusMessage second = health.report({20, 6, 0});
+  EXPECT_EQ(second.level, NodeLevel::kError);
+  EXPECT_THAT(second.message, HasSubstr("4 sweeps dropped"));
+  EXPECT_THAT(second.message, HasSubstr("2 messages lost"));
+  EXPECT_THAT(second.message, HasSubstr("1 messages that cannot be read since the last report, and no other"));
+  EXPECT_EQ(figure(second, "ms largest"), "30.00");
+  // Lost is worse than dropped.
+  EXPECT_EQ(health.report({30, 7, 0}).level, NodeLevel::kError);
+}
+
 TEST(NodeHealth, SilenceIsStale) {
   NodeHealth health;
   health.note_sweep(with_status(OdometryStatus::kOk), 1);

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -60,6 +61,16 @@ TEST(NodeMessages, TheCovarianceIsThatOfSmallDisturbances) {
   EXPECT_EQ(message.child_frame, "base_link");
   EXPECT_EQ(message.stamp.seconds, 1'700'000'000U);
   EXPECT_EQ(message.stamp.nanoseconds, 123'456'789U);
+}
+
+// The LiDAR, 1 m ahead of the base, turns left on the spot: the base goes to its right. The world is the odometry's
+// frame turned about, 5 m away.
+TEST(NodeMessages, ThePoseIsThatOfTheBase) {
+  const double quarter = std::numbers::pi / 2;
+  const SE3 T = base_pose(some_pose(0, 0, 0, {0, 0, quarter}), some_pose(1, 0, 0, {0, 0, 0}),
+                          some_pose(5, 0, 0, {0, 0, 2 * quarter}));
+  EXPECT_LT((T.translation() - Eigen::Vector3d(4, 1, 0)).norm(), 1e-12);
+  EXPECT_LT((T.linear() - so3_exp({0, 0, 3 * quarter})).norm(), 1e-12);
 }
 
 TEST(NodeMessages, TheTwistIsThatOfTheBase) {

@@ -1,7 +1,9 @@
 // The table of the nodes' parameters: values, ranges, what is refused and with which words.
 #include "rilo/node/node_parameters.hpp"
 
+#include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 
@@ -145,6 +147,14 @@ TEST(NodeParameters, AnglesOfAListAreYawPitchRoll) {
   const SE3 same = pose_from_list({1, 2, 3, q.x(), q.y(), q.z(), q.w()});
   EXPECT_TRUE(T.isApprox(same, 1e-12));
   EXPECT_NEAR(std::atan2(T(1, 0), T(0, 0)), 0.4, 1e-12);
+  // A quaternion's length may be off by a thousandth, and is made good.
+  const Eigen::Matrix3d R = pose_from_list({1, 2, 3, 0, 0, 0.6005, 0.8006}).linear();
+  EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  for (const double w : {0.79, 0.81, std::nan("")}) {
+    EXPECT_THROW(pose_from_list({1, 2, 3, 0, 0, 0.6, w}), std::invalid_argument) << w;
+    EXPECT_THROW(pose_from_list({w, 2, 3, 0, 0}), std::invalid_argument);
+  }
+  EXPECT_THROW(pose_from_list({std::nan(""), 2, 3, 0, 0, 0}), std::invalid_argument);
 }
 
 }  // namespace

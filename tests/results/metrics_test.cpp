@@ -4,6 +4,7 @@
 #include "results/evaluation_output.hpp"
 #include "results/metrics_json.hpp"
 #include "results/run_metrics.hpp"
+#include "results/run_report.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo {
@@ -44,6 +45,98 @@ TEST(Metrics, OfARun) {
   EXPECT_EQ(metrics.status.at("lost"), 0U);
   EXPECT_TRUE(std::filesystem::path(metrics.data_path).is_absolute());
   EXPECT_FALSE(metrics.evaluated());
+}
+
+TEST(Metrics, OfEverySweepAndOfTheLast) {
+  RunRecord run = short_run();
+  run.signal = 2;
+  run.results[1].stats.coarse_ran = true;
+  run.results[2].stats.coarse_ran = true;
+  run.results[0].stats.over_budget = true;
+  run.results.back().stats.elevation_applied_rad = 0.001;
+  run.results.back().stats.beam_elevation_rms_rad = 0.002;
+  run.results.back().stats.beam_azimuth_rms_rad = 0.003;
+  RunMetrics metrics = run_metrics(run);
+  EXPECT_TRUE(metrics.interrupted);
+  EXPECT_EQ(metrics.mean_iterations, 3);
+  EXPECT_EQ(metrics.coarse_runs, 2U);
+  EXPECT_FALSE(metrics.budget);
+  EXPECT_NEAR(metrics.elevation_offset_deg.value(), 0.2005, 1e-4);
+  EXPECT_NEAR(metrics.elevation_offset_applied_deg.value(), 0.0573, 1e-4);
+  EXPECT_NEAR(metrics.beam_elevation_rms_deg, 0.1146, 1e-4);
+  EXPECT_NEAR(metrics.beam_azimuth_rms_deg, 0.1719, 1e-4);
+  run.config.elevation.enabled = false;
+  run.config.budget.sweep_ms = 50;
+  metrics = run_metrics(run);
+  EXPECT_FALSE(metrics.elevation_offset_deg);
+  EXPECT_EQ(metrics.budget->over_budget, 1U);
+}
+
+TEST(Metrics, CompensationNeedsTimesAndIsTriedWithoutThem) {
+  RunRecord run = short_run();
+  EXPECT_FALSE(run_metrics(run).motion_compensation);
+  EXPECT_FALSE(run_metrics(run).compensation);
+  run.trial.sweeps = 10;
+  run.trial.better = 6;
+  EXPECT_EQ(run_metrics(run).compensation, (TrialMetrics{10, 6, true, false}));
+  run.trial.timed = true;
+  EXPECT_FALSE(run_metrics(run).compensation);
+  run.source.has_point_times = true;
+  EXPECT_TRUE(run_metrics(run).motion_compensation);
+  run.config.preprocess.deskew = false;
+  EXPECT_FALSE(run_metrics(run).motion_compensation);
+}
+
+TEST(Metrics, EveryErrorAtItsPlace) {
+  const auto summary_of = [](double rmse) {
+    ErrorSummary summary;
+    summary.count = 1;
+    summary.rmse = rmse;
+    return summary;
+  };
+  Evaluation e;
+  e.path_m = 9.5;
+  e.end_error_pct = 3;
+  e.kitti.short_path = true;
+  e.kitti.segments = {{0, 1, 5, 0.02, 0}};
+  e.ape = {Alignment::kUmeyama, SE3::Identity(), summary_of(1), summary_of(2)};
+  e.ape_unaligned = {Alignment::kFirstPose, SE3::Identity(), summary_of(3), summary_of(4)};
+  e.rpe_frame = {summary_of(5), summary_of(6)};
+  e.rpe_metre = {summary_of(7), summary_of(8)};
+  const EvaluationMetrics metrics = evaluation_metrics(e);
+  EXPECT_EQ(metrics.ape_m.rmse, 1);
+  EXPECT_EQ(metrics.ape_rotation_deg.rmse, 2);
+  EXPECT_EQ(metrics.ape_unaligned_m.rmse, 3);
+  EXPECT_EQ(metrics.ape_unaligned_rotation_deg.rmse, 4);
+  EXPECT_EQ(metrics.rpe_frame_m.rmse, 5);
+  EXPECT_EQ(metrics.rpe_frame_deg.rmse, 6);
+  EXPECT_EQ(metrics.rpe_metre_m_per_m.rmse, 7);
+  EXPECT_EQ(metrics.rpe_metre_deg_per_m.rmse, 8);
+  EXPECT_EQ(metrics.end_error_pct, 3);
+  EXPECT_THAT(metrics.t_rel_protocol, HasSubstr("eighths"));
+  // Below 10 m a summary says no percentage of the path.
+  RunRecord run = short_run();
+  run.truth.emplace();
+  for (const auto& [path_m, said] : {std::pair(9.5, false), {10.0, true}}) {
+    e.path_m = path_m;
+    run.evaluation = e;
+    EXPECT_EQ(run_summary(run_metrics(run)).find("t_rel 2.0000 %") != std::string::npos, said);
+  }
+}
+
+TEST(Metrics, AReportLaysTheTrueBeginningOntoTheEstimates) {
+  RunRecord run = short_run();
+  run.source.period_s = 0.05;
+  run.truth.emplace();
+  run.truth->truth.assign(2, SE3::Identity());
+  run.truth->truth[0].translation().x() = 10;
+  run.truth->truth[1].translation().x() = 12;
+  run.truth->estimate.assign(2, SE3::Identity());
+  run.truth->estimate[0].translation().y() = 5;
+  const RunReport report = report_of(run, run_metrics(run));
+  ASSERT_EQ(report.truth.size(), 2U);
+  EXPECT_EQ(report.truth[1].translation(), Eigen::Vector3d(2, 5, 0));
+  EXPECT_DOUBLE_EQ(report.sweep_period_ms, 50);
 }
 
 TEST(Metrics, JsonIsReadBackWithoutLoss) {

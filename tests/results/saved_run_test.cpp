@@ -62,6 +62,28 @@ TEST(SavedRun, IsWhatWasWritten) {
   EXPECT_NEAR(saved.record.results[3].twist[3], 5.0, 1e-9);  // from the poses beside it
 }
 
+TEST(SavedRun, KnowsItsPeriodHowItEndedAndTheCalibrationOfItsData) {
+  const TempDir folder;
+  folder.write("drive/calib.txt", "Tr: 1 0 0 0.5 0 1 0 0 0 0 1 0\n");
+  RunRecord run = straight_run();
+  run.data = folder / "drive";
+  run.signal = 2;
+  for (std::size_t i = 0; i < 5; ++i) run.results[i].stamp_ns = static_cast<std::int64_t>(i) * 50'000'000;
+  run.results[4].stamp_ns = run.results[3].stamp_ns;
+  OutputRequest request;
+  request.out = folder / "out";
+  std::filesystem::create_directory(request.out);
+  write_outputs(request, run, run_metrics(run));
+  const SavedRun saved = read_saved_run(request.out);
+  EXPECT_NE(saved.record.signal, 0);
+  EXPECT_DOUBLE_EQ(saved.record.source.period_s, 0.05);
+  EXPECT_EQ(saved.record.source.T_cam_lidar.value().translation().x(), 0.5);
+  EXPECT_NEAR(saved.record.results[1].twist[3], 10.0, 1e-9);
+  EXPECT_EQ(saved.record.results[4].twist, Vector6d::Zero());  // no time went by
+  std::ofstream(folder / "out" / "poses_lidar.txt", std::ios::app) << "1 0 0 0 0 1 0 0 0 0 1 0\n";
+  EXPECT_THAT(refusal(request.out), HasSubstr("6 poses"));
+}
+
 TEST(SavedRun, FindsTheDataFromAnotherFolder) {
   const TempDir folder;
   const auto write = [&](const std::string& data_path) {

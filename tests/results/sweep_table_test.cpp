@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "io/io_test_util.hpp"
+#include "results/csv_file.hpp"
 
 namespace rilo::test {
 namespace {
@@ -48,6 +49,16 @@ SweepResult some_result() {
 }
 
 std::string csv() { return sweeps_csv({some_result(), SweepResult{}}, {3, 5}); }
+
+TEST(SweepTable, SaysSpeedAndTurnRate) {
+  const TempDir folder;
+  CsvFile line(folder.write("sweeps.csv", csv()), {"", "", ""});
+  ASSERT_TRUE(line.next());
+  EXPECT_DOUBLE_EQ(line.number<double>("speed_m_s"), 3);
+  EXPECT_DOUBLE_EQ(line.number<double>("turn_rate_rad_s"), 0.3);
+  EXPECT_DOUBLE_EQ(line.number<double>("sigma_pitch_rad"), 1);
+  EXPECT_DOUBLE_EQ(line.number<double>("sigma_z_m"), 5);
+}
 
 TEST(SweepTable, IsReadBackWithoutLoss) {
   const TempDir folder;

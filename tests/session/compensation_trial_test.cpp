@@ -75,6 +75,21 @@ double error_at_end_m(const SessionResult& run, const Drive& drive) {
   return (truth.inverse() * found).translation().norm();
 }
 
+TEST(CompensationTrial, IsCertainFromTenSweepsOnOfWhichATenthMayBeLost) {
+  const auto trial = [](std::size_t sweeps, std::size_t better, std::size_t lost) {
+    return CompensationTrial{false, sweeps, better, lost};
+  };
+  EXPECT_FALSE(trial(9, 9, 0).certain());
+  EXPECT_TRUE(trial(10, 5, 1).certain());
+  EXPECT_FALSE(trial(10, 5, 2).certain());
+  EXPECT_TRUE(trial(10, 6, 0).raw());
+  EXPECT_FALSE(trial(10, 5, 0).raw());
+  EXPECT_FALSE(trial(10, 10, 2).raw());
+  EXPECT_TRUE(trial(10, 4, 0).compensated());
+  EXPECT_FALSE(trial(10, 5, 0).compensated());
+  EXPECT_FALSE(trial(10, 0, 2).compensated());
+}
+
 TEST(CompensationTrial, RawPointsFitBetter) {
   const CompensationTrial trial = trial_of(raw().sweeps);
   EXPECT_GE(trial.sweeps, kLeastCompared);

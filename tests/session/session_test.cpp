@@ -130,6 +130,12 @@ TEST(Session, NothingLearntIsNoReasonToStartOver) {
   EXPECT_EQ(run.results.size(), kSweeps);
   options.one_pass = true;
   EXPECT_EQ(poses(Session(open_drive, options).run()), poses(run));
+  options.one_pass = false;
+  options.count = 5;
+  options.config.elevation.initial_deg = 0.1;  // given, not learnt
+  const SessionResult few = Session(open_drive, options).run();
+  EXPECT_FALSE(few.restart);
+  EXPECT_EQ(few.results.size(), 5U);
 }
 
 TEST(Session, OnePassStaysAsItWas) {
@@ -161,6 +167,29 @@ TEST(Session, AnInterruptEndsItAfterTheSweep) {
   EXPECT_TRUE(run.interrupted);
   EXPECT_EQ(run.failure, nullptr);
   EXPECT_EQ(run.results.size(), 4U);
+  // Before the first one, too; and what the first pass did is not given up for a second that will not come.
+  options.interrupted = [] { return true; };
+  const SessionResult nothing = Session(open_drive, options).run();
+  EXPECT_EQ(nothing.failure, nullptr);
+  EXPECT_TRUE(nothing.results.empty());
+  options = soon_certain();
+  asked = 0;
+  options.interrupted = [&asked] { return ++asked > 20; };
+  const SessionResult first_pass = Session(open_drive, options).run();
+  EXPECT_FALSE(first_pass.restart);
+  EXPECT_EQ(first_pass.results.size(), 20U);
+}
+
+// Times of the points that are a little uneven about the stamp: the middle is 0.3 µs later.
+TEST(Session, APoseAtTheStampHasTheStamp) {
+  Sweep sweep = drive()[0];
+  sweep.stamp_ns = 1'700'000'000'123'456'789;
+  sweep.times_s.assign(sweep.points.size(), 0.0F);
+  sweep.times_s.front() = -0.05F;
+  sweep.times_s.back() = 0.0500006F;
+  const SessionResult run =
+      Session([&] { return std::make_unique<SweepsSource>(std::vector<Sweep>{sweep}); }, {}).run();
+  EXPECT_EQ(run.results.at(0).stamp_ns, sweep.stamp_ns);
 }
 
 TEST(Session, ASecondPassThatIsEndedEarlyKeepsWhatTheFirstLearnt) {

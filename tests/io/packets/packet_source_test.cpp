@@ -46,6 +46,45 @@ TEST(UdpReaderTest, LinkTypesAndVlans) {
   expect_io_error([&] { open_scan_source(folder.write("e.pcap", Capture().text())); }, {"no packets"});
 }
 
+// Fragments of three datagrams, of which two have the same number and two the same sender, and one the wrong way round.
+TEST(UdpReaderTest, FragmentsAreThoseOfOneSenderAndNumber) {
+  const TempDir folder;
+  constexpr std::int64_t kStamp = 1'000'000'007;
+  const std::string udp = Capture::big(1) + Capture::big(77) + Capture::big(13) + Capture::big(0) + "hello";
+  const Capture make;
+  const std::string first = make.ipv4(udp.substr(0, 8), 0, true);
+  const std::string last = make.ipv4(udp.substr(8), 8, false);
+  const auto changed = [](std::string packet, std::size_t at) {
+    packet[at] = 9;
+    return packet;
+  };
+  Capture capture(101);
+  for (const std::string& part : {first, last}) {
+    capture.frame(kStamp, part).frame(kStamp, changed(part, 5)).frame(kStamp, changed(part, 15));
+  }
+  EXPECT_EQ(datagrams(folder, capture.text()), 3U);
+  EXPECT_EQ(datagrams(folder, Capture(101).frame(kStamp, last).frame(kStamp, first).text()), 1U);
+}
+
+TEST(UdpReaderTest, LengthsAreThoseOfTheHeaders) {
+  const TempDir folder;
+  constexpr std::int64_t kStamp = 1'000'000'007;
+  const std::string udp = Capture::big(1) + Capture::big(77) + Capture::big(13) + Capture::big(0) + "hello";
+  const Capture make;
+  EXPECT_EQ(datagrams(folder, Capture(101).frame(kStamp, make.ipv4(udp + "more", 0, false)).text()), 1U);
+  EXPECT_EQ(datagrams(folder, Capture(101).frame(kStamp, make.ipv4(udp.substr(0, 12), 0, false)).text()), 0U);
+  std::string options = make.ipv4("abcd" + udp, 0, false);  // four bytes of options in the header
+  options[0] = '\x46';
+  EXPECT_EQ(datagrams(folder, Capture(101).frame(kStamp, options).text()), 1U);
+  // A frame of which the recorder kept a part.
+  std::string cut = Capture(101).frame(kStamp, make.ipv4(udp, 0, false)).text();
+  cut[24 + 12] = 100;
+  detail::UdpReader reader(folder.write("cut.pcap", cut));
+  EXPECT_FALSE(reader.next());
+  ASSERT_EQ(reader.warnings().size(), 1U);
+  EXPECT_NE(reader.warnings()[0].find("1 packets were recorded in part"), std::string::npos);
+}
+
 // One packet of a pcapng file whose clock counts whole seconds: 64 bits of them.
 std::string capture_in_seconds(std::uint64_t seconds, std::string frame) {
   const auto captured = static_cast<std::uint32_t>(frame.size());
@@ -95,9 +134,52 @@ TEST(PacketClockTest, TakesAClockThatIsRightAndSetsAnyOther) {
   EXPECT_EQ(other.resets(), 0U);
   EXPECT_EQ(other.stamp_ns(900'000'000'000, kCaptureBegin + 200'000'000), kCaptureBegin + 200'000'000);
   EXPECT_EQ(other.resets(), 1U);
+  // From there at its own rate again.
+  EXPECT_EQ(other.stamp_ns(900'100'000'000, kCaptureBegin + 320'000'000), kCaptureBegin + 300'000'000);
   detail::PacketClock absolute(0);
   EXPECT_EQ(absolute.stamp_ns(kCaptureBegin - 37, kCaptureBegin), kCaptureBegin - 37);
   EXPECT_EQ(absolute.stamp_ns(INT64_MAX, kCaptureBegin), kCaptureBegin);  // damaged: no overflow
+}
+
+// The hour of the sensor may end before or after that of the recorder, whatever the sign.
+TEST(PacketClockTest, TheHourIsTheNearest) {
+  constexpr std::int64_t kHour = 3'600'000'000'000;
+  constexpr std::int64_t kLittle = 100'000'000;
+  for (const std::int64_t hours : {-3, 0, 1, 7}) {
+    EXPECT_EQ(detail::PacketClock(kHour).stamp_ns(kLittle, hours * kHour - kLittle), hours * kHour + kLittle);
+    EXPECT_EQ(detail::PacketClock(kHour).stamp_ns(kHour - kLittle, hours * kHour + kLittle), hours * kHour - kLittle);
+  }
+}
+
+TEST(PacketClockTest, AClockThatGoesASecondApartIsSet) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  detail::PacketClock clock(0);
+  EXPECT_EQ(clock.stamp_ns(kCaptureBegin - kSecond, kCaptureBegin), kCaptureBegin - kSecond);
+  EXPECT_EQ(clock.resets(), 0U);
+  EXPECT_EQ(clock.stamp_ns(kCaptureBegin - kSecond - 1, kCaptureBegin), kCaptureBegin);
+  EXPECT_EQ(clock.resets(), 1U);
+}
+
+// Half a revolution is dropped at the ends of a recording, not where it is all there is, nor where packets were lost.
+TEST(PacketSourceTest, AnIncompleteRevolutionIsDroppedAtTheEndsOnly) {
+  const TempDir folder;
+  const auto alone = open_scan_source(folder.write("half.pcap", velodyne_drive(0x22, 0.5, 20000).text()));
+  EXPECT_EQ(sweeps_of(*alone).size(), 1U);
+  Capture capture;
+  for (std::size_t i = 0; i < 5 * 64 + 32; ++i) {
+    if (i >= 3 * 64 && i < 3 * 64 + 32) continue;
+    const std::uint64_t ns = 5'000'000 + i * 1'562'500;
+    capture.udp(kCaptureBegin + static_cast<std::int64_t>(ns), 7502,
+                ouster_packet(kOusterShapes[0], static_cast<std::uint16_t>(i / 64), i % 64 * 16, ns));
+  }
+  folder.write("lost.json", ouster_metadata(kOusterShapes[0]));
+  const auto lost = open_scan_source(folder.write("lost.pcap", capture.text()));
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(lost->next()->points.size(), (i == 3 ? 512U : 1024U) * 3);
+    EXPECT_EQ(lost->current_index(), i);
+  }
+  EXPECT_FALSE(lost->next());
+  EXPECT_TRUE(has_warning(lost->info(), "dropped 1 incomplete revolutions"));
 }
 
 TEST(PacketSourceTest, HostileBytes) {

@@ -158,6 +158,37 @@ TEST(PoseFileTest, KittiErrorsHaveLineAndColumn) {
   expect_io_error([&] { read_kitti_poses(folder.path()); }, {"it is a folder"});
 }
 
+TEST(PoseFileTest, OfAFileThatGrowsOnlyWholeLines) {
+  const TempDir folder;
+  const auto file = folder.write("k.txt", "1 0 0 5 0 1 0 0 0 0 1 0\n1 0 0 6 0 1 0 0 0 0 1 1");  // 10 or 12 is to come
+  EXPECT_EQ(read_growing_kitti_poses(file).size(), 1U);
+  EXPECT_EQ(read_kitti_poses(file).size(), 2U);
+  EXPECT_TRUE(read_growing_kitti_poses(folder.write("first.txt", "1 0 0")).empty());
+}
+
+TEST(PoseFileTest, TheTransformIsTheLineThatBeginsWithItsName) {
+  const TempDir folder;
+  const auto file = folder.write("calib.txt", "of_Tr: none\nTr: 1 0 0 0.5 0 1 0 0 0 0 1 0\n");
+  EXPECT_EQ(read_kitti_calibration(file).value().translation().x(), 0.5);
+}
+
+// RᵀR may be off by a thousandth, and so may a quaternion's length, which is made good.
+TEST(PoseFileTest, RotationsAreSuchToThreeDigits) {
+  const TempDir folder;
+  const auto kitti = [&](const std::string& scale) {
+    return read_kitti_poses(folder.write("k.txt", scale + " 0 0 1 0 1 0 2 0 0 1 3\n"));
+  };
+  EXPECT_EQ(kitti("1.0004").size(), 1U);
+  expect_io_error([&] { kitti("1.0006"); }, {"k.txt, line 1", "not a rotation"});
+  const auto tum = [&](const std::string& z, const std::string& w) {
+    return read_tum(folder.write("t.txt", "5 1 2 3 0 0 " + z + " " + w + "\n")).at(0).T_odom_lidar.linear();
+  };
+  const Eigen::Matrix3d R = tum("0.6005", "0.8006");
+  EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-12);
+  expect_io_error([&] { tum("0.59", "0.8"); }, {"t.txt, line 1", "norm 1"});
+  expect_io_error([&] { tum("0.61", "0.8"); }, {"t.txt, line 1", "norm 1"});
+}
+
 TEST(PoseFileTest, TumErrorsHaveLineAndColumn) {
   const TempDir folder;
   const auto fails = [&](const std::string& line, std::initializer_list<std::string_view> parts) {

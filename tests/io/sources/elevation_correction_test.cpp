@@ -5,6 +5,7 @@
 
 #include "io/io_test_util.hpp"
 #include "io/sources/source_wrappers.hpp"
+#include "io/sweeps_source.hpp"
 
 namespace rilo::test {
 namespace {
@@ -46,6 +47,16 @@ TEST(ElevationCorrectionTest, PointsWithoutAzimuthStay) {
   EXPECT_EQ(points[1], Eigen::Vector3f(0, 0, 0));
   EXPECT_TRUE(std::isnan(points[2].x()));
   EXPECT_NEAR(points[3].z(), 1, 1e-6F);
+}
+
+TEST(ElevationCorrectionTest, CorrectionsAddUpAndHaveALimit) {
+  const auto corrected = [](double first_deg, double second_deg) {
+    return detail::with_elevation_correction(
+        detail::with_elevation_correction(std::make_unique<SweepsSource>(std::vector<Sweep>{}), first_deg), second_deg);
+  };
+  EXPECT_DOUBLE_EQ(corrected(0.25, 0.5)->info().elevation_correction_deg, 0.75);
+  EXPECT_NO_THROW(corrected(10, -10));
+  EXPECT_THROW(corrected(0, 10.01), std::invalid_argument);
 }
 
 TEST(ElevationCorrectionTest, SourceAppliesAndReportsIt) {

@@ -107,6 +107,13 @@ TEST(PrefetchSourceTest, ErrorsComeInTheirTurn) {
   EXPECT_FALSE(f.source.next());
 }
 
+TEST(PrefetchSourceTest, SweepsThatCannotBeReadCountAsSkipped) {
+  Fixture f({6, {2, 3}, {}});
+  EXPECT_EQ(f.source.next()->stamp_ns, 0);
+  EXPECT_EQ(f.source.skip(3), 3U);
+  EXPECT_EQ(f.source.next()->stamp_ns, 4);
+}
+
 TEST(PrefetchSourceTest, OtherErrorsEndTheReading) {
   Fixture f({6, {}, 1});
   EXPECT_TRUE(f.source.next());

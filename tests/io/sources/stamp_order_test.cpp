@@ -3,6 +3,7 @@
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
 #include "io/sources/source_wrappers.hpp"
+#include "io/sweeps_source.hpp"
 
 namespace rilo::test {
 namespace {
@@ -35,6 +36,46 @@ TEST(StampOrderTest, GapsAreCounted) {
   EXPECT_EQ(faults.missing, 5U);
   EXPECT_NEAR(faults.longest_gap_s, 0.4, 1e-9);
   EXPECT_TRUE(has_warning(source->info(), "a gap of 0.300 s before it (2 missing)"));
+}
+
+// Sweeps with stamps in ms, every 100 ms if all is well; each has points of its own.
+std::unique_ptr<ScanSource> stamped(const std::vector<std::int64_t>& stamps_ms) {
+  std::vector<Sweep> sweeps(stamps_ms.size());
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    sweeps[i].stamp_ns = stamps_ms[i] * 1'000'000;
+    sweeps[i].points = {{static_cast<float>(i), 1, 1}};
+  }
+  return detail::with_stamp_order(std::make_unique<SweepsSource>(std::move(sweeps)));
+}
+
+TEST(StampOrderTest, FromOneAndAHalfPeriodsOnIsAGap) {
+  const auto source = stamped({0, 149, 300, 700, 1000});
+  EXPECT_EQ(marks(*source).size(), 5U);
+  EXPECT_EQ(source->info().faults.gaps, 3U);
+  EXPECT_EQ(source->info().faults.missing, 1U + 3U + 2U);
+  EXPECT_NEAR(source->info().faults.longest_gap_s, 0.4, 1e-9);
+}
+
+TEST(StampOrderTest, WhatIsSkippedIsNoGapWhatIsMissingLaterIs) {
+  const auto source = stamped({0, 100, 200, 300, 600, 700});
+  EXPECT_TRUE(source->next());
+  EXPECT_EQ(source->skip(2), 2U);
+  EXPECT_TRUE(source->next());
+  EXPECT_EQ(source->info().faults.gaps, 0U);
+  EXPECT_EQ(source->skip(0), 0U);
+  EXPECT_TRUE(source->next());
+  EXPECT_EQ(source->info().faults.gaps, 1U);
+}
+
+// Five late ones at most in a row, and none by more than a second.
+TEST(StampOrderTest, LateOnesBetweenOthersAreNoClockThatWasSet) {
+  const auto late = stamped({5000, 4000, 4700, 4800, 5100, 4200, 4900, 4950, 5200, 5300});
+  EXPECT_EQ(marks(*late), (std::vector<float>{0, 4, 8, 9}));
+  EXPECT_EQ(late->info().faults.clock_jumps, 0U);
+  EXPECT_EQ(late->info().faults.out_of_order, 6U);
+  const auto set = stamped({5000, 3999, 4100});
+  EXPECT_EQ(marks(*set).size(), 3U);
+  EXPECT_EQ(set->info().faults.clock_jumps, 1U);
 }
 
 TEST(StampOrderTest, DuplicatesAndOldSweepsAreLeftOut) {

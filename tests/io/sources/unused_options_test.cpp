@@ -30,6 +30,29 @@ TEST(UnusedOptionsTest, OptionsThatMakeNoDifferenceAreNamed) {
   EXPECT_TRUE(open_scan_source(folder.path())->info().warnings.empty());
 }
 
+TEST(UnusedOptionsTest, OptionsThatMakeADifferenceAreNot) {
+  const TempDir folder;
+  Sweep sweep;
+  sweep.points = {{1, 2, 3}, {2, 3, 4}};
+  SourceOptions options;
+  options.assumed_rate_hz = 1000;
+  options.point_times = PointTimes::kAzimuth;
+  options.spin_direction = SpinDirection::kCounterClockwise;
+  const auto warnings = [&](const std::filesystem::path& path) {
+    return open_scan_source(path, options)->info().warnings;
+  };
+  std::filesystem::create_directory(folder / "alone");
+  std::filesystem::create_directory(folder / "unstamped");
+  write_ply(folder / "alone/1700000000000000000.ply", sweep);
+  EXPECT_TRUE(warnings(folder / "alone").empty());  // its length
+  write_ply(folder / "unstamped/a.ply", sweep);
+  write_ply(folder / "unstamped/b.ply", sweep);
+  EXPECT_FALSE(open_scan_source(folder / "unstamped", options)->info().warnings.empty());
+  EXPECT_FALSE(has_warning(open_scan_source(folder / "unstamped", options)->info(), "is ignored"));
+  options.assumed_rate_hz = 1000.1;
+  EXPECT_THROW(open_scan_source(folder / "alone", options), std::invalid_argument);
+}
+
 TEST(UnusedOptionsTest, FieldsOfTheFirstSweep) {
   const TempDir folder;
   std::string header = "ply\nformat ascii 1.0\nelement vertex 1\n";

@@ -104,6 +104,28 @@ TEST(OrderTimes, NoneWhereTheOrderIsAnother) {
   EXPECT_FALSE(order_times(two_echoes, kPeriod));
 }
 
+// 128 blocks of 8 points, 2.8° apart: a pair of them that changed places turns back once.
+TEST(OrderTimes, OfTheStepsOneInTwentyMayBeWrong) {
+  const auto swapped = [](std::size_t pairs) {
+    std::vector<Eigen::Vector3f> points;
+    for (std::size_t block = 0; block < 128; ++block) {
+      const std::size_t place = block >= 128 - 2 * pairs ? block ^ 1U : block;
+      const double azimuth = kTurn * static_cast<double>(place) / 128;
+      points.insert(points.end(), 8, Eigen::Vector3d(9 * std::cos(azimuth), 9 * std::sin(azimuth), 0).cast<float>());
+    }
+    return points;
+  };
+  const auto times = order_times(swapped(6), kPeriod);  // of 127 steps
+  ASSERT_TRUE(times);
+  EXPECT_GE(*std::min_element(times->begin(), times->end()), 0);
+  EXPECT_LE(*std::max_element(times->begin(), times->end()), static_cast<float>(kPeriod));
+  EXPECT_FALSE(order_times(swapped(7), kPeriod));
+  std::vector<Eigen::Vector3f> fewer = swapped(0);
+  EXPECT_TRUE(order_times(fewer, kPeriod));
+  fewer.pop_back();
+  EXPECT_FALSE(order_times(fewer, kPeriod));
+}
+
 TEST(OrderTimes, NoneWhereNothingCanBeTold) {
   EXPECT_FALSE(order_times({}, kPeriod));
   EXPECT_FALSE(order_times({{1, 2, 3}}, kPeriod));
@@ -123,6 +145,7 @@ std::unique_ptr<ScanSource> timed_by_order(const std::vector<std::vector<Eigen::
 TEST(OrderTimes, OfASource) {
   const Measured turn = spinning(0.4, -kTurn);
   const std::vector<Eigen::Vector3f> few(turn.points.begin(), turn.points.begin() + 100);
+  EXPECT_TRUE(timed_by_order({{}, turn.points})->next()->times_s.empty());  // no points, no error
   const auto source = timed_by_order({turn.points, few, {}});
   EXPECT_TRUE(source->info().has_point_times);
   EXPECT_EQ(source->info().point_times, "order of the points, period 0.200000 s");

@@ -158,6 +158,9 @@ TEST(PointTimesTest, RefusesWhatIsAmbiguous) {
   expect_refused(integers("t", T::kUint32, {4'000'000'000, 4'100'000'000}), {}, {"wrap", "point_time_reference"});
   expect_refused(floats("time", T::kFloat64, {7, 7}), {}, {"span of 0"});
   expect_refused(floats("time", T::kFloat64, {-30.1, -30}), {}, {"point_time_reference"});
+  expect_refused(floats("time", T::kFloat32, {16384, 16384.1}), {}, {"float32 has steps of"});
+  expect_refused(integers("time", T::kInt32, {0, 1}), 1.0, {"a sweep of 0.02 to 1.6 s"});  // whole seconds
+  expect_refused(integers("t", T::kUint32, {0, 1'000'000'000}), {}, {"a sweep of 0.01 to 0.55 s"});
   // Ten times too long for the known period.
   expect_refused(floats("time", T::kFloat64, {0, 0.4}), 0.05, {"0.001 to 0.08 s"});
 }
@@ -171,6 +174,41 @@ TEST(PointTimesTest, ToldUnitAndReference) {
   decoder.decode(integers("t", ScalarType::kUint32, {1'000'000, 1'100'000}), "f", sweep);
   EXPECT_EQ(sweep.stamp_ns, 1'000'000'000);
   EXPECT_FLOAT_EQ(sweep.times_s[1], 0.1F);
+}
+
+TEST(PointTimesTest, ToldThingsHaveTheirLimits) {
+  const auto decoded = [](Unit unit, Reference reference, const RawTimes& raw) {
+    PointTimeHints hints;
+    hints.unit = unit;
+    hints.reference = reference;
+    PointTimeDecoder decoder(hints);
+    Sweep sweep = sweep_of(2);
+    decoder.decode(raw, "f", sweep);
+    return sweep;
+  };
+  using T = ScalarType;
+  // A sweep takes no more than 2.5 s, and is no farther than that from its stamp, on either side.
+  expect_io_error(
+      [&] {
+        decoded(Unit::kMicroseconds, Reference::kEpoch, integers("t", T::kInt64, {1'000'000, 3'600'000}));
+      },
+      {"at most 2.5 s in us"});
+  expect_io_error(
+      [&] {
+        decoded(Unit::kSeconds, Reference::kStamp, floats("t", T::kFloat64, {-2.6, -2.4}));
+      },
+      {"from the sweep's stamp"});
+  // Fractions count from the stamp, whatever is told.
+  EXPECT_EQ(decoded(Unit::kFraction, Reference::kEpoch, floats("t", T::kFloat32, {0, 1})).stamp_ns, 5'000'000'000);
+}
+
+TEST(PointTimesTest, HalfOfTheFractionsShowThatTheyAreSuch) {
+  PointTimeHints hints;
+  hints.period_s = 0.2;
+  PointTimeDecoder decoder(hints);
+  Sweep sweep = sweep_of(3);
+  decoder.decode(floats("time", ScalarType::kFloat32, {0, 0.25, 0.5}), "f", sweep);
+  EXPECT_FLOAT_EQ(sweep.times_s[2], 0.1F);
 }
 
 TEST(PointTimesTest, FractionsOfTheAssumedPeriod) {
@@ -226,6 +264,7 @@ TEST(PointTimesTest, PointsThatAreNoMeasurementTakeNoPart) {
   EXPECT_EQ(sweep.stamp_ns, 1'600'000'000'000'000'000);
   EXPECT_EQ(sweep.times_s[0], 0);
   EXPECT_EQ(sweep.times_s[1], 0);
+  EXPECT_TRUE(sweep.points[0].isZero());
   EXPECT_NEAR(sweep.times_s[3], 0.1F, 1e-6F);
   EXPECT_TRUE(sweep.points[3].allFinite());
   EXPECT_TRUE(std::isnan(sweep.points[4].x()));
@@ -254,6 +293,7 @@ TEST(PointTimesTest, ExtremeIntegersDoNotOverflow) {
 TEST(PoseStampTest, TheStampWithinAMicrosecond) {
   EXPECT_EQ(pose_stamp_ns(-594, 0), 0);
   EXPECT_EQ(pose_stamp_ns(1000, 0), 0);
+  EXPECT_EQ(pose_stamp_ns(-1000, 0), 0);
   EXPECT_EQ(pose_stamp_ns(1001, 0), 1001);
   EXPECT_EQ(pose_stamp_ns(-1001, 0), -1001);
   EXPECT_EQ(pose_stamp_ns(std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()),

@@ -7,6 +7,7 @@
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
 #include "io/sweep_writer.hpp"
+#include "io/times/sweep_period.hpp"
 #include "rilo/io/point_times.hpp"
 
 namespace rilo::test {
@@ -85,6 +86,49 @@ TEST(WrongTimesTest, ManyAreAFault) {
   Sweep sweep = sweep_of();
   decoder.decode(times(0, 0.1), "a", sweep);
   expect_io_error([&] { decoder.decode(raw, "b", sweep); }, {"b", "at most 2.5 s"});
+}
+
+// Up to a fiftieth at either end of the times.
+TEST(WrongTimesTest, MoreThanAFiftiethAreAFaultToo) {
+  for (const std::size_t wrong : {20U, 21U}) {
+    RawTimes raw = times(0, 0.1);
+    for (std::size_t i = 0; i < wrong; ++i) raw.floats[i] = 7;
+    PointTimeDecoder decoder = decoder_of();
+    Sweep sweep = sweep_of();
+    decoder.decode(times(0, 0.1), "a", sweep);
+    const auto decode = [&] { decoder.decode(raw, "b", sweep); };
+    if (wrong == 20) {
+      decode();
+      EXPECT_NE(decoder.warning().find("b: 20 of 1000"), std::string::npos);
+    } else {
+      expect_io_error(decode, {"b", "at most 2.5 s"});
+    }
+  }
+}
+
+// Longer than the period, and one wrong time: what most of them span counts. The first warning stays.
+TEST(WrongTimesTest, OfALongSweepSinglePointsOnly) {
+  PointTimeDecoder decoder = decoder_of();
+  Sweep sweep = sweep_of();
+  decoder.decode(times(0, 0.1), "a", sweep);
+  RawTimes raw = with_wrong(times(0, 0.15), 2);
+  raw.floats[7] = std::nan("");
+  decoder.decode(raw, "b", sweep);
+  EXPECT_NE(decoder.warning().find("b: 1 of 1000 points"), std::string::npos) << decoder.warning();
+  sweep = sweep_of();
+  decoder.decode(with_wrong(raw, 2.1), "c", sweep);
+  EXPECT_EQ(decoder.warning().find("c:"), std::string::npos) << decoder.warning();
+}
+
+// From 1.6 times the period on.
+TEST(WrongTimesTest, ALittleTooLongIsNotSaid) {
+  for (const auto& [span, said] : {std::pair(0.155, false), {0.165, true}}) {
+    PointTimeDecoder decoder = decoder_of();
+    Sweep sweep = sweep_of();
+    decoder.decode(times(0, 0.1), "a", sweep);
+    decoder.decode(times(0, span), "b", sweep);
+    EXPECT_EQ(decoder.warning().empty(), !said) << decoder.warning();
+  }
 }
 
 TEST(WrongTimesTest, TooLongIsSaid) {
@@ -216,6 +260,15 @@ TEST(WrongTimesTest, TheSameForAllPointsInAToldUnit) {
   const TempDir folder;
   const auto source = recording(folder, drive(3, [](std::size_t, float) { return 1.0F; }), options);
   EXPECT_EQ(source->next()->times_s, std::vector<float>(kSweepPoints, 1.0F));
+  // Zeros tell nothing in any unit, and stamps are what they are.
+  const TempDir other;
+  const auto zeros = recording(other, drive(3, [](std::size_t, float) { return 0.0F; }), options);
+  EXPECT_TRUE(zeros->next()->times_s.empty());
+  options.point_time_reference = Reference::kEpoch;
+  const TempDir third;
+  const auto stamps =
+      recording(third, drive(3, [](std::size_t k, float) { return 0.25F * static_cast<float>(k + 1); }), options);
+  EXPECT_EQ(stamps->next()->stamp_ns, 250'000'000);
 }
 
 TEST(WrongTimesTest, AClockThatStartsAtZero) {
@@ -281,6 +334,19 @@ TEST(WrongTimesTest, FractionsOfAThinnedTopic) {
   const auto source = recording(folder, sweeps);
   sweeps_of(*source);
   EXPECT_TRUE(has_warning(source->info(), "fractions of 0.3 s"));
+  const TempDir other;
+  const auto usual = recording(other, drive(4, [](std::size_t, float part) { return part; }));
+  EXPECT_FLOAT_EQ(usual->next()->times_s[500], 0.05F);
+  EXPECT_TRUE(usual->info().warnings.empty());
+}
+
+TEST(OddPeriodTest, From5MillisecondsTo2SecondsAreUsual) {
+  for (const auto& [period_s, odd] : {std::pair(0.0049, true), {0.005, false}, {2.0, false}, {2.1, true}}) {
+    SourceInfo info;
+    info.period_s = period_s;
+    detail::note_odd_period("times.txt", info);
+    EXPECT_EQ(info.warnings.size(), odd ? 1U : 0U) << period_s;
+  }
 }
 
 TEST(OddPeriodTest, StampsInAnotherUnit) {

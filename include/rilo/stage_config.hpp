@@ -69,8 +69,6 @@ struct ElevationOffsetConfig {
   bool enabled = true;        ///< estimate it, and correct it once it is significant
   double initial_deg = 0.0;   ///< known offset: added from the first sweep on
   double significance = 1.7;  ///< standard deviations from 0 or initial_deg that are significant
-  double least_deg = 0.08;    ///< smaller errors are not corrected
-  double step_deg = 0.03;     ///< largest change of the correction from sweep to sweep
 };
 
 /// Errors of the angles of single beams against their neighbours, estimated from the sweeps alone.

@@ -21,8 +21,6 @@ constexpr std::size_t kLeastBlocks = 3;     // for a standard deviation
 constexpr double kResponse = 0.65;
 // Error common to all residuals of a surface, whatever their number: errors of single beams, rounded edges.
 constexpr double kSystematicM = 0.002;
-// A correction of less standard deviations than this is taken back: it is expected to leave a larger error than none.
-constexpr double kTakeBack = 1.0;
 
 /// Sums of the mixed terms of δ with pose and velocity, and of δ alone.
 struct Sums {
@@ -163,17 +161,12 @@ void ElevationOffsetEstimator::doubt_others() {
 
 void ElevationOffsetEstimator::decide() {
   const auto [angle, sigma] = estimate();
-  const double enough = std::max(config_.significance * sigma, config_.least_deg * kRadPerDeg);
+  const double enough = config_.significance * sigma;
   following_ = following_ || std::abs(angle) > enough || std::abs(angle - config_.initial_deg * kRadPerDeg) > enough;
 }
 
-double ElevationOffsetEstimator::target_rad() const {
-  const auto [angle, sigma] = estimate();
-  return std::abs(angle) > std::min(kTakeBack, config_.significance) * sigma ? angle : 0.0;
-}
-
 double ElevationOffsetEstimator::known_deg() const {
-  return config_.enabled && following_ ? kDegPerRad * target_rad() : config_.initial_deg;
+  return config_.enabled && following_ ? kDegPerRad * estimate().rad : config_.initial_deg;
 }
 
 void ElevationOffsetEstimator::begin_with(double initial_deg, const AngleEstimate& others) {
@@ -190,8 +183,7 @@ double ElevationOffsetEstimator::advance() {
   if (!config_.enabled || !following_) {
     return 0.0;
   }
-  const double step = config_.step_deg * kRadPerDeg;
-  const double change = std::clamp(target_rad() - applied_rad_, -step, step);
+  const double change = estimate().rad - applied_rad_;
   applied_rad_ += change;
   return change;
 }

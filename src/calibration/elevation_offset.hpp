@@ -42,8 +42,8 @@ class ElevationOffsetEstimator {
   /// Angle added so far.
   double applied_rad() const { return applied_rad_; }
 
-  /// Moves the applied angle towards the estimate once that differs significantly from zero or from the configured
-  /// angle; takes the correction back when the error is no longer significant. Returns the change of the applied angle.
+  /// Lets the applied angle follow the estimate once that has differed significantly from zero or from the configured
+  /// angle. Returns the change of the applied angle.
   double advance();
 
   /// The angle to begin with in another run: the estimate if that is certain, else the one that this run began with.
@@ -61,7 +61,6 @@ class ElevationOffsetEstimator {
   double sigma_of_sweeps_rad() const;
   void doubt_others();
   void decide();
-  double target_rad() const;
 
   ElevationOffsetConfig config_;
   AngleEstimate others_;

@@ -183,12 +183,8 @@ void add_elevation(KeyVisitor& keys, ElevationOffsetConfig& c) {
   keys.real({"initial_deg", "deg", "known offset: added to the elevation angles from the first sweep on"},
             c.initial_deg, -10, 10);
   keys.real({"significance", "", "standard deviations from 0 or initial_deg that are significant; 1000: estimate only",
-             "experiment: elevation at 2.2 σ"},
+             "experiment: elevation at 1.7 σ"},
             c.significance, 0, 1000);
-  keys.real({"least_deg", "deg", "smaller errors are not corrected", kNotTuned}, c.least_deg, 0, 10);
-  keys.real({"step_deg", "deg", "largest change of the correction from sweep to sweep",
-             "experiment: applied by at most 0.03°"},
-            c.step_deg, 0.0001, 1);
 }
 
 void add_beams(KeyVisitor& keys, BeamCalibrationConfig& c) {

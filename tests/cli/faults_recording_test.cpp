@@ -149,8 +149,8 @@ TEST(FaultsOfRecordings, OneThatIsReplacedBeforeTheSecondPassKeepsTheFirst) {
   const auto out = folder / "out";
   const fs::path file = long_mcap(folder).file;
   const auto other = folder.write("other", "not a recording");
-  const Outcome outcome = run_meanwhile(file, out, [&] { fs::rename(other, file); },
-                                        {"--set", "elevation.significance=0", "--set", "elevation.least_deg=0"});
+  const Outcome outcome =
+      run_meanwhile(file, out, [&] { fs::rename(other, file); }, {"--set", "elevation.significance=0"});
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("the start of an MCAP file"));
   const std::size_t kept = json_file(out / "metrics.json")["frames"];

@@ -13,12 +13,7 @@ constexpr std::size_t kSweeps = 40;
 
 // Any estimate counts as certain, so that a short drive of a sensor without error will do.
 std::vector<std::string> arguments(const fs::path& data, const fs::path& out) {
-  return {"run",           data,
-          "--out",         out,
-          "--point-times", "none",
-          "--set",         "elevation.significance=0",
-          "--set",         "elevation.least_deg=0",
-          "--no-report"};
+  return {"run", data, "--out", out, "--point-times", "none", "--set", "elevation.significance=0", "--no-report"};
 }
 
 std::vector<std::string> with(std::vector<std::string> command, const std::vector<std::string>& more) {

@@ -92,7 +92,7 @@ TEST(NodeHealth, ReportsTellWhatIsNewAndTheWorstOfIt) {
   EXPECT_EQ(second.level, NodeLevel::kError);
   EXPECT_THAT(second.message, HasSubstr("4 sweeps dropped"));
   EXPECT_THAT(second.message, HasSubstr("2 messages lost"));
-  EXPECT_THAT(second.message, HasSubstr("1 messages that cannot be read since the last report, and no other"));
+  EXPECT_THAT(second.message, HasSubstr("1 message that cannot be read since the last report, and no other"));
   EXPECT_EQ(figure(second, "ms largest"), "30.00");
   // Lost is worse than dropped.
   EXPECT_EQ(health.report({30, 7, 0}).level, NodeLevel::kError);

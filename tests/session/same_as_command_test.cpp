@@ -41,9 +41,7 @@ TEST(SameAsCommand, OnASimulatedDrive) {
   write_drive(DriveSimulator(drive), folder / "drive");
   SessionOptions options;
   options.config.elevation.significance = 0;
-  options.config.elevation.least_deg = 0;
-  expect_same_run(folder / "drive", options, {},
-                  {"--set", "elevation.significance=0", "--set", "elevation.least_deg=0"}, folder);
+  expect_same_run(folder / "drive", options, {}, {"--set", "elevation.significance=0"}, folder);
 }
 
 TEST(SameAsCommand, OnKittiRaw0001) {

@@ -48,7 +48,6 @@ std::unique_ptr<ScanSource> open_drive() { return std::make_unique<DriveSource>(
 SessionOptions soon_certain() {
   SessionOptions options;
   options.config.elevation.significance = 0;
-  options.config.elevation.least_deg = 0;
   return options;
 }
 

@@ -82,7 +82,7 @@ TEST(UdpReaderTest, LengthsAreThoseOfTheHeaders) {
   detail::UdpReader reader(folder.write("cut.pcap", cut));
   EXPECT_FALSE(reader.next());
   ASSERT_EQ(reader.warnings().size(), 1U);
-  EXPECT_NE(reader.warnings()[0].find("1 packets were recorded in part"), std::string::npos);
+  EXPECT_NE(reader.warnings()[0].find("1 packet recorded in part"), std::string::npos);
 }
 
 // One packet of a pcapng file whose clock counts whole seconds: 64 bits of them.

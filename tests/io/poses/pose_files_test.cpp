@@ -180,7 +180,7 @@ TEST(PoseFileTest, RotationsAreSuchToThreeDigits) {
   };
   EXPECT_EQ(kitti("1.0004").size(), 1U);
   expect_io_error([&] { kitti("1.0006"); }, {"k.txt, line 1", "not a rotation"});
-  const auto tum = [&](const std::string& z, const std::string& w) {
+  const auto tum = [&](const std::string& z, const std::string& w) -> Eigen::Matrix3d {
     return read_tum(folder.write("t.txt", "5 1 2 3 0 0 " + z + " " + w + "\n")).at(0).T_odom_lidar.linear();
   };
   const Eigen::Matrix3d R = tum("0.6005", "0.8006");

@@ -34,7 +34,7 @@ void see(ElevationOffsetEstimator& estimator, double truth_rad, int sweeps) {
     ElevationInformation sweep;
     sweep.information = 1e9;
     sweep.jacobian_m = 5.0;
-    sweep.gradient = 0.65 * sweep.information * (truth_rad - estimator.applied_rad());
+    sweep.gradient = 0.5 * sweep.information * (truth_rad - estimator.applied_rad());
     estimator.add(sweep);
     estimator.advance();
   }
@@ -113,11 +113,11 @@ TEST(ElevationEstimator, ACorrectionIsTakenBackWhereTheSweepsSayThatThereIsNone)
   EXPECT_NEAR(estimator.applied_rad(), 0.0, 1e-3 * kRadPerDeg);
 }
 
-TEST(ElevationEstimator, AnErrorIsAppliedFrom1_7StandardDeviationsOn) {
+TEST(ElevationEstimator, AnErrorIsAppliedFromTwoStandardDeviationsOn) {
   for (const double share : {0.95, 1.05}) {
     ElevationOffsetEstimator known({});
     const double sigma = 0.05 * kRadPerDeg;
-    known.begin_with(0.0, {1.7 * share * sigma, sigma});
+    known.begin_with(0.0, {2.0 * share * sigma, sigma});
     EXPECT_EQ(known.advance(), share < 1 ? 0.0 : known.estimate().rad);
   }
 }
@@ -136,7 +136,7 @@ void add(ElevationOffsetEstimator& estimator, double offset_rad, int sweeps) {
     ElevationInformation sweep;
     sweep.information = 1e9;
     sweep.jacobian_m = 5.0;
-    sweep.gradient = 0.65 * sweep.information * offset_rad;
+    sweep.gradient = 0.5 * sweep.information * offset_rad;
     estimator.add(sweep);
   }
 }

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kSweepsPerBlock = 5;  // half a second: the map's errors are shared by neighbouring sweeps
 constexpr std::size_t kLeastBlocks = 3;     // for a standard deviation
-// Noise in the Jacobians weakens the response to about this share of the ideal one; measured on real and simulated
-// drives. It sets the rate of convergence, not the limit: there the gradient is zero.
+// Noise in the Jacobians weakens the response to about this share of the ideal one; chosen on drives with an offset. It
+// sets the rate of convergence, not the limit: there the gradient is zero.
 constexpr double kResponse = 0.5;
 // Error common to all residuals of a surface, whatever their number: errors of single beams, rounded edges.
 constexpr double kSystematicM = 0.002;

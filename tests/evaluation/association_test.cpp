@@ -6,27 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "evaluation/trajectories.hpp"
+#include "evaluation/stamped_poses.hpp"
 
 namespace rilo::test {
 namespace {
 
 using ::testing::ElementsAre;
-
-/// Poses whose x is their place in the list.
-Trajectory stamped(const std::vector<std::int64_t>& stamps_ns) {
-  Trajectory trajectory;
-  for (const std::int64_t stamp : stamps_ns) {
-    trajectory.push_back({stamp, pose(static_cast<double>(trajectory.size()), 0, 0)});
-  }
-  return trajectory;
-}
-
-std::vector<double> places(const std::vector<SE3>& poses) {
-  std::vector<double> xs;
-  for (const SE3& T : poses) xs.push_back(T.translation().x());
-  return xs;
-}
 
 TEST(MatchByStamp, TakesTheNearestWithinTolerance) {
   const MatchedPoses m = match_by_stamp(stamped({0, 100, 200, 300}), stamped({4, 96, 250, 311}), 10);

@@ -1,6 +1,7 @@
 // Which true pose belongs to which estimated one, whatever their files are.
 #include <gmock/gmock.h>
 
+#include "evaluation/stamped_poses.hpp"
 #include "io/io_test_util.hpp"
 #include "results/pose_files.hpp"
 #include "results/run_truth.hpp"
@@ -15,34 +16,24 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-/// Poses at 0, 1, 2 … m.
-PoseFile stamped(const std::vector<std::int64_t>& stamps_ms) {
+PoseFile stamped_file(const std::vector<std::int64_t>& stamps_ms) {
+  std::vector<std::int64_t> stamps_ns;
+  for (const std::int64_t ms : stamps_ms) stamps_ns.push_back(ms * 1'000'000);
   PoseFile file;
   file.stamped = true;
-  for (const std::int64_t ms : stamps_ms) {
-    StampedPose pose;
-    pose.stamp_ns = ms * 1'000'000;
-    pose.T_odom_lidar.translation().x() = static_cast<double>(file.trajectory.size());
-    file.trajectory.push_back(pose);
-  }
+  file.trajectory = stamped(stamps_ns);
   return file;
 }
 
 /// As those of a data folder, whose poses may be stamped so much later than its sweeps.
 PoseFile of_data(const std::vector<std::int64_t>& stamps_ms, const std::vector<std::int64_t>& later_ms) {
-  PoseFile file = stamped(stamps_ms);
+  PoseFile file = stamped_file(stamps_ms);
   for (const std::int64_t ms : later_ms) file.offsets_ns.push_back(ms * 1'000'000);
   return file;
 }
 
-std::vector<double> places(const std::vector<SE3>& poses) {
-  std::vector<double> xs;
-  for (const SE3& T : poses) xs.push_back(T.translation().x());
-  return xs;
-}
-
 TEST(PosePairing, ByTheOffsetThatFitsMostPoses) {
-  const PoseFile estimate = stamped({0, 100, 200, 300, 400});
+  const PoseFile estimate = stamped_file({0, 100, 200, 300, 400});
   for (const std::vector<std::int64_t>& later_ms : {std::vector<std::int64_t>{0}, {50, 0}, {200, 0}, {0, 200}}) {
     const PairedPoses paired = pair_poses(of_data({0, 100, 200, 300, 400}, later_ms), estimate, {});
     EXPECT_THAT(places(paired.poses.truth), ElementsAre(0, 1, 2, 3, 4));
@@ -55,7 +46,7 @@ TEST(PosePairing, ByTheOffsetThatFitsMostPoses) {
 }
 
 TEST(PosePairing, ByIndexWhereStampsOfDataFitNotAll) {
-  const PoseFile other_clock = stamped({0, 100, 200, 1300, 1400});
+  const PoseFile other_clock = stamped_file({0, 100, 200, 1300, 1400});
   const auto protocol = [&](const PoseFile& truth, Pairing pairing) {
     return pair_poses(truth, other_clock, {pairing, 0.02, 0}).protocol;
   };
@@ -64,19 +55,19 @@ TEST(PosePairing, ByIndexWhereStampsOfDataFitNotAll) {
   EXPECT_THAT(protocol(of_data({0, 100, 200, 300, 400}, {0}), Pairing::kStamp), HasSubstr("by stamp"));
   // Another number of poses, or those of a file, do not belong together by their place.
   EXPECT_THAT(protocol(of_data({0, 100, 200, 300, 400, 500}, {0}), Pairing::kAuto), HasSubstr("; 3 of 6 true and 5"));
-  EXPECT_THAT(protocol(stamped({0, 100, 200, 300, 400}), Pairing::kAuto), HasSubstr("; 3 of 5 true and 5"));
+  EXPECT_THAT(protocol(stamped_file({0, 100, 200, 300, 400}), Pairing::kAuto), HasSubstr("; 3 of 5 true and 5"));
 }
 
 TEST(PosePairing, ByIndexFromTheFirstOnWithAWarningWhereTheyAreNotAsMany) {
-  PoseFile truth = stamped({0, 1, 2, 3, 4});
+  PoseFile truth = stamped_file({0, 1, 2, 3, 4});
   truth.stamped = false;
   truth.warnings = {"of the truth"};
   const auto paired = [&](const PoseFile& estimate, std::size_t first) {
     return pair_poses(truth, estimate, {Pairing::kAuto, 0.02, first});
   };
-  const PoseFile four = stamped({0, 1, 2, 3});
+  const PoseFile four = stamped_file({0, 1, 2, 3});
   EXPECT_THAT(paired(four, 0).warnings, ElementsAre("of the truth", HasSubstr("5 true and 4 estimated poses")));
-  EXPECT_THAT(paired(stamped({0, 1, 2, 3, 4, 5}), 0).warnings, SizeIs(2));
+  EXPECT_THAT(paired(stamped_file({0, 1, 2, 3, 4, 5}), 0).warnings, SizeIs(2));
   EXPECT_THAT(paired(four, 1).warnings, SizeIs(1));
   EXPECT_THAT(places(paired(four, 1).poses.truth), ElementsAre(1, 2, 3, 4));
   EXPECT_THROW(paired(four, 4), RunError);
@@ -131,7 +122,7 @@ TEST(PosesOfSweeps, ByTheirPlaceInTheDataOrByStamp) {
   const TempDir folder;
   const RunRecord run = of_two_sweeps();
   std::vector<SE3> six;
-  for (const StampedPose& pose : stamped({0, 1, 2, 3, 4, 5}).trajectory) six.push_back(pose.T_odom_lidar);
+  for (const StampedPose& pose : stamped_file({0, 1, 2, 3, 4, 5}).trajectory) six.push_back(pose.T_odom_lidar);
   write_kitti_poses(folder / "six.txt", six);
   const auto by_place = poses_of_sweeps({folder / "six.txt"}, run);
   ASSERT_EQ(by_place.size(), 2U);
@@ -145,7 +136,7 @@ TEST(PosesOfSweeps, ByTheirPlaceInTheDataOrByStamp) {
   longer.results.insert(longer.results.begin(), SweepResult{});
   longer.results[0].stamp_ns = 60'000'000;
   longer.indices = {1, 3, 5};
-  write_tum(folder / "t.tum", stamped({150, 250}).trajectory);
+  write_tum(folder / "t.tum", stamped_file({150, 250}).trajectory);
   const auto by_stamp = poses_of_sweeps({folder / "t.tum"}, longer);
   ASSERT_EQ(by_stamp.size(), 3U);
   EXPECT_FALSE(by_stamp[0]);

@@ -219,7 +219,9 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   last_step_ = step;
 
   const bool sound = result.status == OdometryStatus::kOk && established();
-  calibration_.learn(prepared, icp, threshold_.sigma_th_m(), config_.icp, sound, map_.map());
+  if (!degenerate) {  // there the prediction holds a direction, whatever the angles
+    calibration_.learn(prepared, icp, threshold_.sigma_th_m(), config_.icp, sound, map_.map());
+  }
   calibration_.apply_to(preprocessor_);
 
   judge_.accept(prepared, registration);

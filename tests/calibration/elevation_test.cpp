@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include <Eigen/Cholesky>
@@ -212,6 +213,28 @@ TEST(Elevation, PoseAndVelocityAreEliminated) {
   EXPECT_LT((sweep.pose.rotation - follows.head<3>()).norm(), 0.1 * follows.head<3>().norm());
   EXPECT_LT((sweep.pose.translation - follows.segment<3>(3)).norm(), 0.1 * follows.segment<3>(3).norm());
 
+  // What an error of the lower beams alone does to the gradient, after the pose has followed.
+  constexpr std::size_t kLower = kBands / 2 - 25;  // bands up to -10°
+  TimedCloud lower = source;
+  for (Eigen::Vector3f& p : lower.points) {
+    if (std::atan2(p.z(), std::hypot(p.x(), p.y())) < -10.0 * kDegree) {
+      p = ElevationRotation(-kStep)(p);
+    }
+  }
+  const double gains =
+      (elevation_information(lower, map, icp, kUnitWeights, config, {}, 1).gradient - sweep.gradient) / kStep;
+  const Vector12d pulls =
+      (linearise(lower, map, icp.state, kUnitWeights, config).gradient() - sums_at(0.0).gradient()) / kStep;
+  const auto of_lower = [&](const ElevationInformation& of) {
+    return std::accumulate(of.by_band.begin(), of.by_band.begin() + kLower, 0.0);
+  };
+  EXPECT_GT(std::abs(follows.dot(pulls)), 0.5 * std::abs(gains)) << "the pose takes up most of it";
+  EXPECT_NEAR(of_lower(sweep), gains - follows.dot(pulls), 0.1 * std::abs(gains));
+  IcpResult held = icp;
+  held.posterior_information = 1e12 * Matrix12d::Identity();
+  EXPECT_NEAR(of_lower(elevation_information(source, map, held, kUnitWeights, config, {}, 1)), gains,
+              0.02 * std::abs(gains));
+
   // A registration that trusts its residuals less, since bushes scatter more than planes: all counts less, and the pose
   // explains no more than before.
   icp.unit_information *= 0.4;
@@ -219,6 +242,7 @@ TEST(Elevation, PoseAndVelocityAreEliminated) {
   const ElevationInformation vague = elevation_information(source, map, icp, kUnitWeights, config, {}, 1);
   EXPECT_NEAR(vague.information, 0.4 * sweep.information, 1e-6 * sweep.information);
   EXPECT_NEAR(vague.gradient, 0.4 * sweep.gradient, 1e-6 * std::abs(sweep.gradient));
+  EXPECT_NEAR(vague.by_band[kLower - 1], 0.4 * sweep.by_band[kLower - 1], 1e-6 * sweep.information);
   EXPECT_NEAR(vague.jacobian_m, sweep.jacobian_m, 1e-6 * sweep.jacobian_m);
   EXPECT_LT((vague.pose.rotation - sweep.pose.rotation).norm(), 1e-6 * sweep.pose.rotation.norm());
 }

@@ -68,7 +68,7 @@ struct LocalMapConfig {
 struct ElevationOffsetConfig {
   bool enabled = true;        ///< estimate it, and correct it once it is significant
   double initial_deg = 0.0;   ///< known offset: added from the first sweep on
-  double significance = 2.0;  ///< standard deviations from 0 or initial_deg that are significant
+  double significance = 2.3;  ///< standard deviations from 0 or initial_deg that are significant
 };
 
 /// Errors of the angles of single beams against their neighbours, estimated from the sweeps alone.

@@ -8,17 +8,17 @@
 namespace rilo {
 
 void SensorCalibration::learn(const PreparedSweep& prepared, const IcpResult& icp, double sigma_th_m,
-                              const AdaptiveIcpConfig& config, bool sound, const LocalMap& map) {
+                              const AdaptiveIcpConfig& config, bool settled, const LocalMap& map) {
   if (elevation_config_.enabled) {
     const ElevationInformation sweep =
         elevation_information(prepared.source, map, icp, sigma_th_m, config, pose_by_elevation_, kSampleStride);
     pose_by_elevation_ = sweep.pose;
-    if (sound) {
+    if (settled) {
       elevation_.add(sweep);
       change_rad_ = elevation_.advance();
     }
   }
-  if (beams_config_.enabled && sound) {
+  if (beams_config_.enabled && settled) {
     beams_.learn(prepared.beam_sample, map, icp, sigma_th_m, config);
   }
 }

@@ -18,10 +18,10 @@ class SensorCalibration {
   SensorCalibration(const ElevationOffsetConfig& elevation, const BeamCalibrationConfig& beams)
       : elevation_config_(elevation), beams_config_(beams), elevation_(elevation), beams_(beams) {}
 
-  /// Learns from a sweep that was registered to `map` with `config`, weighted with `sigma_th_m`, before it goes into
-  /// the map. `sound`: the sweep is beyond doubt; of any other only the pose derivative is followed.
+  /// Learns from a sweep beyond doubt that was registered to `map` with `config`, weighted with `sigma_th_m`, before it
+  /// goes into the map. Unless the map is `settled`, only the pose derivative is followed.
   void learn(const PreparedSweep& prepared, const IcpResult& icp, double sigma_th_m, const AdaptiveIcpConfig& config,
-             bool sound, const LocalMap& map);
+             bool settled, const LocalMap& map);
 
   /// Moves the map by what learn() changed of the applied elevation offset: after the sweep, whose points still have
   /// the old one, went in.

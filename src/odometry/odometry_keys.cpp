@@ -183,7 +183,7 @@ void add_elevation(KeyVisitor& keys, ElevationOffsetConfig& c) {
   keys.real({"initial_deg", "deg", "known offset: added to the elevation angles from the first sweep on"},
             c.initial_deg, -10, 10);
   keys.real({"significance", "", "standard deviations from 0 or initial_deg that are significant; 1000: estimate only",
-             "experiment: elevation at 2 σ"},
+             "experiment: sigma of the elevation with errors of beams"},
             c.significance, 0, 1000);
 }
 

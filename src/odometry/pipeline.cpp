@@ -218,9 +218,9 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   }
   last_step_ = step;
 
-  const bool sound = result.status == OdometryStatus::kOk && established();
-  if (!degenerate) {  // there the prediction holds a direction, whatever the angles
-    calibration_.learn(prepared, icp, threshold_.sigma_th_m(), config_.icp, sound, map_.map());
+  // In doubt the prediction or a search decides on the pose, and not the angles: its derivative stays what it was.
+  if (result.status == OdometryStatus::kOk) {
+    calibration_.learn(prepared, icp, threshold_.sigma_th_m(), config_.icp, established(), map_.map());
   }
   calibration_.apply_to(preprocessor_);
 

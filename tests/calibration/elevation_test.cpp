@@ -247,7 +247,7 @@ TEST(Elevation, PoseAndVelocityAreEliminated) {
   EXPECT_LT((vague.pose.rotation - sweep.pose.rotation).norm(), 1e-6 * sweep.pose.rotation.norm());
 }
 
-TEST(Elevation, OfASweepInDoubtThePoseStillFollowsTheAngle) {
+TEST(Elevation, OfAYoungMapThePoseStillFollowsTheAngle) {
   const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
   IcpResult icp;
   icp.state.T_odom_lidar = se3_exp(test::twist(0.0, 0.002, 0.01, 0.6, 0.2, 0.01));

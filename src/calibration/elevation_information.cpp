@@ -16,12 +16,19 @@ namespace {
 
 /// Derivatives of a residual. Without a plane the weight is zero.
 struct Row {
-  Vector12d state = Vector12d::Zero();  // with respect to pose and velocity
-  double elevation = 0;                 // to δ
-  double own = 0;                       // to the elevation angle of the point alone
+  Vector6d pose = Vector6d::Zero();
+  double lever_s = 0;    // with respect to the velocity: so many times that to the pose
+  double elevation = 0;  // to δ
+  double own = 0;        // to the elevation angle of the point alone
   double error = 0;
   double weight = 0;
   std::size_t band = 0;
+
+  Vector12d state() const {
+    Vector12d both;
+    both << pose, lever_s * pose;
+    return both;
+  }
 };
 
 std::size_t band_of(const Eigen::Vector3f& point) {
@@ -40,13 +47,9 @@ std::vector<Row> rows_of(const RegisteredSource& sweep, const LocalMap& map, con
     // Relative to a sensor that continues to move with δ as the last pose did; the whole plane moves, so that its own
     // point counts.
     const Eigen::Vector3d moves = own + last.at(plane.point) - spot.grid->elevation_jacobian_at(spot).cast<double>();
-    Vector6d J;
-    J << (world - t).cross(plane.normal), plane.normal;
     Row& row = rows[i / sweep.stride];
-    row.state.head<6>() = J;
-    if (refine) {
-      row.state.tail<6>() = sweep.state.velocity_lever_s(static_cast<double>(sweep.source.offsets_s[i])) * J;
-    }
+    row.pose << (world - t).cross(plane.normal), plane.normal;
+    row.lever_s = refine ? sweep.state.velocity_lever_s(static_cast<double>(sweep.source.offsets_s[i])) : 0.0;
     row.elevation = plane.normal.dot(moves);
     row.own = plane.normal.dot(own);
     row.error = e;
@@ -69,7 +72,7 @@ ElevationInformation elevation_information(const TimedCloud& source, const Local
   double gradient = 0.0;
   double weight = 0.0;
   for (const Row& row : rows) {
-    mixed += (row.weight * row.elevation) * row.state;
+    mixed += (row.weight * row.elevation) * row.state();
     square += row.weight * row.elevation * row.elevation;
     gradient -= row.weight * row.elevation * row.error;
     weight += row.weight;
@@ -92,7 +95,7 @@ ElevationInformation elevation_information(const TimedCloud& source, const Local
   result.jacobian_m = std::sqrt(information / (scale * weight));
   result.pose = {t, last.rotation - solved.head<3>(), last.at(t) - solved.segment<3>(3)};
   for (const Row& row : rows) {
-    result.by_band[row.band] += scale * row.weight * row.own * (row.elevation - row.state.dot(solved));
+    result.by_band[row.band] += scale * row.weight * row.own * (row.elevation - row.state().dot(solved));
   }
   return result;
 }

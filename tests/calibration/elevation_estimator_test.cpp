@@ -149,7 +149,7 @@ void add(ElevationOffsetEstimator& estimator, double offset_rad, int sweeps) {
   }
 }
 
-TEST(ElevationEstimator, ResidualsAnswerToTwoThirdsOfAnErrorAndTheLastSweepsCountMost) {
+TEST(ElevationEstimator, ResidualsAnswerToHalfOfAnErrorAndTheLastSweepsCountMost) {
   ElevationOffsetEstimator estimator({});
   add(estimator, 0.001, 1);
   EXPECT_NEAR(estimator.estimate().rad, 0.001, 1e-12);

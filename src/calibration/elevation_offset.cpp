@@ -23,6 +23,9 @@ constexpr double kSystematicM = 0.001;
 // Before a recording says anything: sensors' elevation angles are off by some tenths of a degree. What a few sweeps in
 // a room say, 1° ± 0.5°, is none of them.
 constexpr double kUsualErrorRad = 0.2 * kRadPerDeg;
+// An estimate that was significant once, by chance of hundreds of sweeps, is taken back; one that is just significant
+// must not come and go: it stays down to this share of the bound, which is two standard deviations.
+constexpr double kStillSignificant = 0.87;
 
 }  // namespace
 
@@ -117,14 +120,15 @@ void ElevationOffsetEstimator::begin_with(double initial_deg, const AngleEstimat
 double ElevationOffsetEstimator::advance() {
   doubt_others();
   const AngleEstimate now = estimate();
-  const double enough = config_.significance * now.sigma_rad;
-  following_ =
-      following_ || std::abs(now.rad) > enough || std::abs(now.rad - config_.initial_deg * kRadPerDeg) > enough;
-  if (!config_.enabled || !following_) {
+  const double initial_rad = config_.initial_deg * kRadPerDeg;
+  const double enough = (following_ ? kStillSignificant : 1.0) * config_.significance * now.sigma_rad;
+  following_ = std::abs(now.rad) > enough || std::abs(now.rad - initial_rad) > enough;
+  if (!config_.enabled) {
     return 0.0;
   }
-  const double change = now.rad - applied_rad_;
-  applied_rad_ = now.rad;
+  const double next = following_ ? now.rad : initial_rad;
+  const double change = next - applied_rad_;
+  applied_rad_ = next;
   return change;
 }
 

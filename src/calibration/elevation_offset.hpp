@@ -25,8 +25,8 @@ class ElevationOffsetEstimator {
   /// Angle added so far.
   double applied_rad() const { return applied_rad_; }
 
-  /// Lets the applied angle follow the estimate once that has differed significantly from zero or from the configured
-  /// angle. Returns the change of the applied angle.
+  /// Lets the applied angle follow the estimate where that differs significantly from zero or from the configured
+  /// angle, else takes it back to the latter. Returns the change of the applied angle.
   double advance();
 
   /// The angle to begin with in another run: the estimate if that is certain, else the one that this run began with.

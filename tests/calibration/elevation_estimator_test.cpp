@@ -130,6 +130,44 @@ TEST(ElevationEstimator, AnErrorIsAppliedWhereItIsSignificant) {
   }
 }
 
+TEST(ElevationEstimator, AnErrorThatIsNoLongerSignificantIsTakenBack) {
+  ElevationOffsetEstimator estimator({});
+  see(estimator, 0.2 * kRadPerDeg, 15);
+  ASSERT_GT(estimator.applied_rad(), 0.0);
+  const double block_rad = 4.0 * kRadPerDeg;
+  for (int block = 0; block < 20 && estimator.applied_rad() != 0.0; ++block) {
+    see(estimator, block % 2 == 0 ? -block_rad : block_rad, 5);  // what each block sees contradicts the last
+    const AngleEstimate now = estimator.estimate();
+    EXPECT_EQ(estimator.applied_rad(), std::abs(now.rad) > 2.001 * now.sigma_rad ? now.rad : 0.0);
+  }
+  EXPECT_EQ(estimator.applied_rad(), 0.0);
+  EXPECT_EQ(estimator.known_deg(), 0.0) << "nor does another run begin with it";
+}
+
+TEST(ElevationEstimator, AnErrorThatIsJustSignificantDoesNotComeAndGo) {
+  const double sigma = 0.05 * kRadPerDeg;
+  ElevationOffsetEstimator known({});
+  known.begin_with(0.0, {2.35 * sigma, sigma});
+  known.advance();
+  ASSERT_GT(known.applied_rad(), 0.0);
+  // Sweeps that hardly count beside it move it below the bound.
+  int between = 0;
+  for (int i = 0; i < 200; ++i) {
+    ElevationInformation sweep;
+    sweep.information = 0.01 / (sigma * sigma);
+    sweep.jacobian_m = 5.0;
+    sweep.gradient = -0.5 * sweep.information * known.applied_rad();
+    known.add(sweep);
+    known.advance();
+    const AngleEstimate now = known.estimate();
+    const double ratio = now.rad / now.sigma_rad;
+    EXPECT_EQ(known.applied_rad() != 0.0, ratio > 0.87 * 2.3) << ratio;
+    between += ratio < 2.3 && ratio > 0.87 * 2.3 ? 1 : 0;
+  }
+  EXPECT_GT(between, 0);
+  EXPECT_EQ(known.applied_rad(), 0.0);
+}
+
 TEST(ElevationEstimator, WhatIsKnownBeforehandIsCorrectedWhenItIsWrong) {
   ElevationOffsetConfig config;
   config.initial_deg = 0.3;

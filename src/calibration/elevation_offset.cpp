@@ -85,8 +85,9 @@ double ElevationOffsetEstimator::sigma_of_sweeps_rad() const {
   return std::sqrt(std::max(from_scatter, 1.0 / information_) + from_beams + systematic);
 }
 
-AngleEstimate ElevationOffsetEstimator::estimate() const {
-  const AngleEstimate own = of_sweeps();
+AngleEstimate ElevationOffsetEstimator::estimate() const { return beside_what_is_known(of_sweeps()); }
+
+AngleEstimate ElevationOffsetEstimator::beside_what_is_known(const AngleEstimate& own) const {
   const bool told = std::isfinite(others_.sigma_rad);
   if (!std::isfinite(own.sigma_rad)) {
     return told ? others_ : own;
@@ -98,8 +99,7 @@ AngleEstimate ElevationOffsetEstimator::estimate() const {
 }
 
 // The sensor may have been put right since, or be another unit.
-void ElevationOffsetEstimator::doubt_others() {
-  const AngleEstimate own = of_sweeps();
+void ElevationOffsetEstimator::doubt_others(const AngleEstimate& own) {
   if (std::abs(own.rad - others_.rad) > config_.significance * std::hypot(own.sigma_rad, others_.sigma_rad)) {
     others_ = {0.0, kUsualErrorRad};
   }
@@ -118,8 +118,9 @@ void ElevationOffsetEstimator::begin_with(double initial_deg, const AngleEstimat
 }
 
 double ElevationOffsetEstimator::advance() {
-  doubt_others();
-  const AngleEstimate now = estimate();
+  const AngleEstimate own = of_sweeps();
+  doubt_others(own);
+  const AngleEstimate now = beside_what_is_known(own);
   const double initial_rad = config_.initial_deg * kRadPerDeg;
   const double enough = (following_ ? kStillSignificant : 1.0) * config_.significance * now.sigma_rad;
   following_ = std::abs(now.rad) > enough || std::abs(now.rad - initial_rad) > enough;

@@ -42,7 +42,8 @@ class ElevationOffsetEstimator {
  private:
   AngleEstimate of_sweeps() const;
   double sigma_of_sweeps_rad() const;
-  void doubt_others();
+  AngleEstimate beside_what_is_known(const AngleEstimate& own) const;
+  void doubt_others(const AngleEstimate& own);
 
   ElevationOffsetConfig config_;
   AngleEstimate others_;

@@ -16,11 +16,7 @@ namespace {
 constexpr int kRounds = 3;                 // each compensates the first sweep with the velocity of the one before
 constexpr int kNearbyRounds = 2;           // the last ones: the wide gate of the first may leave the basin of the start
 constexpr double kDraftShare = 1.0 / 3.0;  // of the points; with a quarter fewer second sweeps are certain
-// Of the quality: one that fits as well elsewhere is not certain. None of 304 right ones has a rival of 0.9.
-constexpr double kRival = 0.9;
-// Starts of the second sweep along the direction that it constrains least. The basin of an optimum on a road is about
-// a metre wide.
-constexpr double kStepM = 1.25;
+// Starts of the second sweep along the direction that it constrains least, a basin apart.
 constexpr double kMostSpeed = 37.5;      // m/s, 135 km/h: so far do the starts reach, ...
 constexpr double kReachM = 40.0;         // ... but not where two sweeps share too little
 constexpr std::size_t kOtherStarts = 4;  // of which so many are tried again, ...
@@ -45,7 +41,7 @@ Registration SecondSweep::registered(const MotionState& start, const MotionPrior
       return in_rounds(other, parts_.tracker.prior(other), kNearbyRounds);
     };
     search_.try_all(starts, from, found);
-    found.ambiguous = found.rival_quality > kRival * found.quality;
+    found.ambiguous = found.rival_quality > kFitsWorse * found.quality;
   }
   return found;
 }
@@ -118,11 +114,11 @@ std::vector<MotionState> SecondSweep::other_starts(const Registration& found) co
   // The result first, which the others are compared with; it takes the place of the one beside it.
   std::vector<MotionState> places = {{found.icp.state.T_odom_lidar, found.first->twist}};
   const double reach_m = std::min(kMostSpeed * parts_.tracker.since_trusted_s(), kReachM);
-  const auto steps = static_cast<int>(std::lround(reach_m / kStepM));
+  const auto steps = static_cast<int>(std::lround(reach_m / kBasinM));
   for (int k = -steps; k <= steps; ++k) {
     SE3 place = parts_.tracker.trusted().T_odom_lidar;
-    place.translation() += k * kStepM * weakest;
-    if ((place.translation() - found.icp.state.T_odom_lidar.translation()).norm() > 0.5 * kStepM) {
+    place.translation() += k * kBasinM * weakest;
+    if ((place.translation() - found.icp.state.T_odom_lidar.translation()).norm() > 0.5 * kBasinM) {
       places.push_back({place, parts_.tracker.implied_twist(place)});
     }
   }

@@ -1,5 +1,6 @@
 #include "odometry/sweep_judge.hpp"
 
+#include "odometry/optimum.hpp"
 #include "odometry/pose_noise.hpp"
 #include "odometry/running_mean.hpp"
 #include "odometry/sweep_map.hpp"
@@ -9,10 +10,7 @@ namespace rilo {
 namespace {
 constexpr int kMostBeginnings = 10;    // a robot may start where the place shows no better second sweep
 constexpr double kShrunk = 1.0 / 3.0;  // of the last median range: doors and passing lorries take less at once
-// Of the usual quality and least eigenvalue: right sweeps hardly ever fit worse and see a direction so much less at
-// once.
-constexpr double kFitsWorse = 0.9;
-constexpr double kSeesLess = 0.25;
+constexpr double kSeesLess = 0.25;     // of the usual least eigenvalue: right sweeps that fit worse hardly ever do
 /// Out of time while the points still moved by more than that: each update leaves about as much as it was. (With 0.03 m
 /// hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are.)
 bool cut_off(const IcpResult& icp, double range_m) {

@@ -7,9 +7,9 @@
 #include "odometry_node.hpp"
 
 int main(int argc, char** argv) {
-  rclcpp::init(argc, argv);
   bool failed = false;
   try {
+    rclcpp::init(argc, argv);  // reads the parameter file
     const auto node = std::make_shared<rilo::ros2::OdometryNode>(rclcpp::NodeOptions());
     rclcpp::spin(node);
     failed = node->failed();

@@ -266,6 +266,9 @@ std::string LiveOdometry::set_initial_pose(const std::string& frame, const Eigen
 LiveOdometry::SavedMap LiveOdometry::save_map(const std::string& file) const {
   try {
     const MapCloud map{impl_->map(), {}, {}};
+    if (map.points.empty()) {  // the file may be the map of before the reset
+      return {false, file + ": not written, there are no points yet since the start or the last reset", 0};
+    }
     write_map(file, map);
     return {true, "written: " + std::filesystem::absolute(file).string(), map.points.size()};
   } catch (const std::exception& error) {

@@ -315,6 +315,11 @@ TEST_F(RunningNode, TheMapIsSaved) {
   EXPECT_FALSE(refused.success);
   EXPECT_THAT(refused.message, HasSubstr("map.txt"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "map.txt"));
+  odometry.reset();
+  const LiveOdometry::SavedMap nothing = odometry.save_map(file.string());
+  EXPECT_FALSE(nothing.success);
+  EXPECT_THAT(nothing.message, HasSubstr("no points"));
+  EXPECT_GT(std::filesystem::file_size(file), 12 * saved.points);  // the map of before the reset
 }
 
 }  // namespace

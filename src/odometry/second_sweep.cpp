@@ -13,7 +13,7 @@
 namespace rilo {
 
 namespace {
-constexpr int kRounds = 3;                 // each compensates the first sweep with the velocity of the one before
+constexpr int kRounds = 4;                 // each compensates the first sweep with the velocity of the one before
 constexpr int kNearbyRounds = 2;           // the last ones: the wide gate of the first may leave the basin of the start
 constexpr double kDraftShare = 1.0 / 3.0;  // of the points; with a quarter fewer second sweeps are certain
 // Starts of the second sweep along the direction that it constrains least, a basin apart.

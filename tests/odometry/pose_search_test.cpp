@@ -290,7 +290,7 @@ TEST_F(PoseSearches, ASecondSweepThatFitsElsewhereAsWellIsAmbiguous) {
     EXPECT_EQ(found.ambiguous, regular);
     EXPECT_NEAR(regular ? std::abs(x_of(found)) : x_of(found), 2.5, 0.05);
     EXPECT_GT(found.starts, 1);
-    EXPECT_DOUBLE_EQ(found.sigma_th_m, 0.025) << "halved twice, from round to round";
+    EXPECT_DOUBLE_EQ(found.sigma_th_m, 0.0125) << "halved three times, from round to round";
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "geometry/degrees.hpp"
 
@@ -30,7 +31,7 @@ constexpr double kStillSignificant = 0.87;
 }  // namespace
 
 ElevationOffsetEstimator::ElevationOffsetEstimator(const ElevationOffsetConfig& config)
-    : config_(config), applied_rad_(config.initial_deg * kRadPerDeg) {}
+    : config_(config), applied_rad_(initial_rad()) {}
 
 void ElevationOffsetEstimator::add(const ElevationInformation& sweep) {
   if (!(sweep.information > 0.0)) {
@@ -92,7 +93,7 @@ AngleEstimate ElevationOffsetEstimator::beside_what_is_known(const AngleEstimate
   if (!std::isfinite(own.sigma_rad)) {
     return told ? others_ : own;
   }
-  const AngleEstimate before = told ? others_ : AngleEstimate{config_.initial_deg * kRadPerDeg, kUsualErrorRad};
+  const AngleEstimate before = told ? others_ : AngleEstimate{initial_rad(), kUsualErrorRad};
   const double own_weight = 1.0 / (own.sigma_rad * own.sigma_rad);
   const double weight = 1.0 / (before.sigma_rad * before.sigma_rad);
   return {(own_weight * own.rad + weight * before.rad) / (own_weight + weight), 1.0 / std::sqrt(own_weight + weight)};
@@ -105,8 +106,10 @@ void ElevationOffsetEstimator::doubt_others(const AngleEstimate& own) {
   }
 }
 
+double ElevationOffsetEstimator::initial_rad() const { return config_.initial_deg * kRadPerDeg; }
+
 double ElevationOffsetEstimator::known_deg() const {
-  return config_.enabled && following_ ? kDegPerRad * estimate().rad : config_.initial_deg;
+  return following_ ? kDegPerRad * estimate().rad : config_.initial_deg;
 }
 
 void ElevationOffsetEstimator::begin_with(double initial_deg, const AngleEstimate& others) {
@@ -121,16 +124,10 @@ double ElevationOffsetEstimator::advance() {
   const AngleEstimate own = of_sweeps();
   doubt_others(own);
   const AngleEstimate now = beside_what_is_known(own);
-  const double initial_rad = config_.initial_deg * kRadPerDeg;
   const double enough = (following_ ? kStillSignificant : 1.0) * config_.significance * now.sigma_rad;
-  following_ = std::abs(now.rad) > enough || std::abs(now.rad - initial_rad) > enough;
-  if (!config_.enabled) {
-    return 0.0;
-  }
-  const double next = following_ ? now.rad : initial_rad;
-  const double change = next - applied_rad_;
-  applied_rad_ = next;
-  return change;
+  following_ = std::abs(now.rad) > enough || std::abs(now.rad - initial_rad()) > enough;
+  const double before_rad = std::exchange(applied_rad_, following_ ? now.rad : initial_rad());
+  return applied_rad_ - before_rad;
 }
 
 }  // namespace rilo

@@ -40,6 +40,7 @@ class ElevationOffsetEstimator {
   const AngleEstimate& others() const { return others_; }
 
  private:
+  double initial_rad() const;
   AngleEstimate of_sweeps() const;
   double sigma_of_sweeps_rad() const;
   AngleEstimate beside_what_is_known(const AngleEstimate& own) const;

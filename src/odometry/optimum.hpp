@@ -16,8 +16,8 @@ inline double quality_of(const IcpResult& icp, double score, std::size_t points)
   return icp.residual_rms_m > 0.0 ? score * share / icp.residual_rms_m : 0.0;
 }
 
-/// Of a quality: below it a registration fits worse. None of 304 right second sweeps has a rival that does not, and
-/// right sweeps hardly ever fit worse than usual by so much.
+/// A registration with less than this share of another's quality fits worse. Of 304 right second sweeps each fitted
+/// worse at all other places, and right sweeps hardly ever fit worse than usual.
 inline constexpr double kFitsWorse = 0.9;
 
 /// Converged without points that had to be held.

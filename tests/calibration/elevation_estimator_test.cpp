@@ -36,10 +36,10 @@ TEST(ElevationEstimator, TheEstimatorFindsWhatASteadyResponsePointsAt) {
 }
 
 // Sweeps whose residuals point at `truth`.
-void see(ElevationOffsetEstimator& estimator, double truth_rad, int sweeps) {
+void see(ElevationOffsetEstimator& estimator, double truth_rad, int sweeps, double information = 1e9) {
   for (int i = 0; i < sweeps; ++i) {
     ElevationInformation sweep;
-    sweep.information = 1e9;
+    sweep.information = information;
     sweep.jacobian_m = 5.0;
     sweep.gradient = 0.5 * sweep.information * (truth_rad - estimator.applied_rad());
     estimator.add(sweep);
@@ -153,12 +153,7 @@ TEST(ElevationEstimator, AnErrorThatIsJustSignificantDoesNotComeAndGo) {
   // Sweeps that hardly count beside it move it below the bound.
   int between = 0;
   for (int i = 0; i < 200; ++i) {
-    ElevationInformation sweep;
-    sweep.information = 0.01 / (sigma * sigma);
-    sweep.jacobian_m = 5.0;
-    sweep.gradient = -0.5 * sweep.information * known.applied_rad();
-    known.add(sweep);
-    known.advance();
+    see(known, 0.0, 1, 0.01 / (sigma * sigma));
     const AngleEstimate now = known.estimate();
     const double ratio = now.rad / now.sigma_rad;
     EXPECT_EQ(known.applied_rad() != 0.0, ratio > 0.87 * 2.3) << ratio;

@@ -36,13 +36,11 @@ inline bool within(const SE3& a, const SE3& b, double metres, double radians) {
 /// Poses nearer than the noise of good ones: their scores differ by the sample of the score.
 inline bool same_optimum(const SE3& a, const SE3& b) { return within(a, b, kPoseNoiseM, kPoseNoiseRad); }
 
-/// Width of the basin of an optimum on a road.
-inline constexpr double kBasinM = 1.25;
-
-/// In another basin.
+/// In another basin: half the width of that of an optimum on a road.
 inline bool elsewhere(const SE3& a, const SE3& b) {
+  constexpr double kApartM = 0.625;
   constexpr double kApartRad = 0.1;
-  return !within(a, b, 0.5 * kBasinM, kApartRad);
+  return !within(a, b, kApartM, kApartRad);
 }
 
 }  // namespace rilo

@@ -215,12 +215,14 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
     threshold_.update(registration.T_init, tracker_.state().T_odom_lidar, step - last_step_);
     result.stats.gamma = threshold_.gamma();
     result.stats.deviation_m = threshold_.deviation_m();
+  } else {
+    threshold_.reset();  // sweeps that were empty in between widened it
   }
   last_step_ = step;
 
   // In doubt the prediction or a search decides on the pose, and not the angles: its derivative stays what it was.
   if (result.status == OdometryStatus::kOk) {
-    calibration_.learn(prepared, icp, threshold_.sigma_th_m(), config_.icp, established(), map_.map());
+    calibration_.learn(prepared, icp, registration.sigma_th_m, config_.icp, established(), map_.map());
   }
   calibration_.apply_to(preprocessor_);
 

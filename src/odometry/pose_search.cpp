@@ -47,33 +47,18 @@ SampleFit PoseSearch::fit_of(const TimedCloud& sample, const MotionState& start,
   return {icp.state, quality_of(icp, score, sample.size())};
 }
 
-void PoseSearch::try_all(const std::vector<MotionState>& starts, const Register& from, Registration& found) const {
-  int tried = found.starts;
-  bool cut = found.cut;
-  for (const MotionState& start : starts) {
-    cut = cut || end_.passed();
-    if (cut) {
-      break;
-    }
-    keep_better(from(start), found);
-    ++tried;
+void PoseSearch::try_from(const MotionState& start, const Register& from, Registration& found) const {
+  found.cut = found.cut || end_.passed();
+  if (found.cut) {
+    return;
   }
-  found.starts = tried;
-  found.cut = cut;
-}
-
-void PoseSearch::keep_better(Registration other, Registration& found) const {
+  Registration other = from(start);
+  other.starts = ++found.starts;
   const double margin = 1.0 + parts_.config.initial_pose.margin;
   const bool settles = settles_better(other.icp, found.icp) && other.quality > found.quality;
-  const bool wins = settles || (!same_optimum(other.icp.state.T_odom_lidar, found.icp.state.T_odom_lidar) &&
-                                other.quality > margin * found.quality);
-  Registration& kept = wins ? other : found;
-  const Registration& rest = wins ? found : other;
-  kept.rival_quality = std::max(found.rival_quality, other.rival_quality);
-  if (settled(rest.icp) && elsewhere(rest.icp.state.T_odom_lidar, kept.icp.state.T_odom_lidar)) {
-    kept.rival_quality = std::max(kept.rival_quality, rest.quality);
-  }
-  if (wins) {
+  const bool fits = other.quality > margin * found.quality &&
+                    !same_optimum(other.icp.state.T_odom_lidar, found.icp.state.T_odom_lidar);
+  if (settles || fits) {
     found = std::move(other);
   }
 }

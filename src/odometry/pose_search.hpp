@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
 #include "odometry/registration.hpp"
 
@@ -36,13 +35,11 @@ class PoseSearch {
   /// Some of the points, registered to a map from a start.
   SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map,
                    const Deadline& deadline) const;
-  /// Registers from further starts while there is time. Keeps what ends elsewhere and fits clearly better, or settles
+  /// Registers from a further start if there is time. Keeps what ends elsewhere and fits clearly better, or settles
   /// where `found` did not.
-  void try_all(const std::vector<MotionState>& starts, const Register& from, Registration& found) const;
+  void try_from(const MotionState& start, const Register& from, Registration& found) const;
 
  private:
-  void keep_better(Registration other, Registration& found) const;
-
   const RegistrationParts& parts_;
   Deadline end_;
   AdaptiveIcpConfig icp_;

@@ -8,7 +8,7 @@
 #include "cloud/fixed_chunks.hpp"
 #include "cloud/thinning.hpp"
 #include "odometry/optimum.hpp"
-#include "registration/plane_residuals.hpp"
+#include "odometry/sweep_overlap.hpp"
 
 namespace rilo {
 
@@ -16,12 +16,9 @@ namespace {
 constexpr int kRounds = 4;                 // each compensates the first sweep with the velocity of the one before
 constexpr int kNearbyRounds = 2;           // the last ones: the wide gate of the first may leave the basin of the start
 constexpr double kDraftShare = 1.0 / 3.0;  // of the points; with a quarter fewer second sweeps are certain
-// Starts of the second sweep along the direction that it constrains least, a basin apart.
-constexpr double kMostSpeed = 37.5;      // m/s, 135 km/h: so far do the starts reach, ...
-constexpr double kReachM = 40.0;         // ... but not where two sweeps share too little
-constexpr std::size_t kOtherStarts = 4;  // of which so many are tried again, ...
-constexpr double kWorthTrying = 0.8;     // ... from where a sample fits so many times as well as at the first result: a
-                                         // wrong one that is not compared with the right one would be vouched for
+constexpr double kMostSpeed = 37.5;        // m/s, 135 km/h: so far other places are looked at, ...
+constexpr double kReachM = 40.0;           // ... but not where two sweeps share too little
+constexpr int kLooks = 3;                  // the first result may be turned, too
 }  // namespace
 
 SecondSweep::SecondSweep(const RegistrationParts& parts, const PoseSearch& search)
@@ -35,13 +32,7 @@ Registration SecondSweep::registered(const MotionState& start, const MotionPrior
   Registration found = in_rounds(start, prior, kRounds);
   found.cut = search_.end().passed_after(parts_.first_map_ms);
   if (!found.cut) {
-    const std::vector<MotionState> starts = other_starts(found);
-    found.cut = parts_.deadline.passed_after(parts_.first_map_ms);  // then some were not tried with the sample
-    const auto from = [&](const MotionState& other) {
-      return in_rounds(other, parts_.tracker.prior(other), kNearbyRounds);
-    };
-    search_.try_all(starts, from, found);
-    found.ambiguous = found.rival_quality > kFitsWorse * found.quality;
+    move_to_most_overlap(found);
   }
   return found;
 }
@@ -84,7 +75,7 @@ Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior&
     const bool late = parts_.deadline.passed_after((1.0 + 2.0 * kDraftShare) * parts_.first_map_ms);
     last = late || round + 1 == kRounds;
     // Each round starts nearer.
-    const double sigma_m = std::max(std::ldexp(parts_.sigma_th_m, -round), parts_.config.threshold.floor_m);
+    const double sigma_m = std::max(std::ldexp(parts_.usual_sigma_th_m, -round), parts_.config.threshold.floor_m);
     const Deadline round_end = search_.end().after(1.0 / (kRounds - round));
     if (iterations > 0 && parts_.map.first_can_be_compensated()) {
       twist = twist_of_first(found.icp, sigma_m, round_end.after(0.5));
@@ -104,44 +95,69 @@ Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior&
   return found;
 }
 
-/// No motion is known at the second sweep, and along a road it has several optima: at rest, too, when most of what it
-/// sees runs along the road or drives with the sensor. Registers a sample of it from places along the direction that
-/// it constrains least; the best results that lie elsewhere than `found` and each other, best first.
-std::vector<MotionState> SecondSweep::other_starts(const Registration& found) const {
-  const TimedCloud sample = every_nth(parts_.prepared.source, kSparseStride);
-  const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
-  const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
-  // The result first, which the others are compared with; it takes the place of the one beside it.
-  std::vector<MotionState> places = {{found.icp.state.T_odom_lidar, found.first->twist}};
+/// The sweep as found beside the first one.
+SweepOverlap SecondSweep::overlap_with_first(const Registration& found, const Eigen::Vector3d& direction) const {
+  const SE3& origin = parts_.tracker.trusted().T_odom_lidar;
+  const LocalMap planes = parts_.map.of_sweep(parts_.prepared.map_cloud, found.icp.state, parts_.prepared.scene_range_m,
+                                              parts_.pose_by_elevation);
+  return {{parts_.map.first_cloud(), {origin, found.first->twist}, or_present(found.first->map)},
+          {parts_.prepared.source, found.icp.state, planes},
+          direction};
+}
+
+/// Of the places along a direction that lie elsewhere, as far as a sensor may have moved, the one with the most
+/// overlap.
+SecondSweep::Place SecondSweep::best_elsewhere(const Registration& found, const SweepOverlap& overlap,
+                                               const Eigen::Vector3d& direction) const {
+  const SE3& T_found = found.icp.state.T_odom_lidar;
+  const double moved_m = direction.dot(T_found.translation() - parts_.tracker.trusted().T_odom_lidar.translation());
   const double reach_m = std::min(kMostSpeed * parts_.tracker.since_trusted_s(), kReachM);
-  const auto steps = static_cast<int>(std::lround(reach_m / kBasinM));
+  const auto steps = static_cast<int>(std::lround(reach_m / SweepOverlap::kSigmaM));
+  std::vector<Place> places;
   for (int k = -steps; k <= steps; ++k) {
-    SE3 place = parts_.tracker.trusted().T_odom_lidar;
-    place.translation() += k * kBasinM * weakest;
-    if ((place.translation() - found.icp.state.T_odom_lidar.translation()).norm() > 0.5 * kBasinM) {
-      places.push_back({place, parts_.tracker.implied_twist(place)});
+    SE3 T = T_found;
+    T.translation() += (k * SweepOverlap::kSigmaM - moved_m) * direction;
+    if (elsewhere(T, T_found)) {
+      places.push_back({{T, parts_.tracker.implied_twist(T)}});
     }
   }
-  std::vector<SampleFit> fits(places.size());
   for_each_index(places.size(), [&](std::size_t i) {
     if (!parts_.deadline.passed_after(parts_.first_map_ms)) {
-      fits[i] = search_.fit_of(sample, places[i], or_present(of_first_sweep(first_, places[i].twist)), parts_.deadline);
+      places[i].overlap = overlap.at(places[i].state, places[i].state.twist);
     }
   });
-  const double least = settled(found.icp) ? kWorthTrying * fits.front().quality : 0.0;
-  std::stable_sort(fits.begin(), fits.end(),
-                   [](const SampleFit& a, const SampleFit& b) { return a.quality > b.quality; });
-  std::vector<MotionState> starts = {found.icp.state};
-  for (const SampleFit& fit : fits) {
-    const SE3& T = fit.state.T_odom_lidar;
-    const bool apart = std::all_of(starts.begin(), starts.end(),
-                                   [&T](const MotionState& start) { return elsewhere(start.T_odom_lidar, T); });
-    if (apart && fit.quality > 0.0 && fit.quality >= least && starts.size() <= kOtherStarts) {
-      starts.push_back({T, parts_.tracker.implied_twist(T)});
+  const auto best = std::max_element(places.begin(), places.end(),
+                                     [](const Place& a, const Place& b) { return a.overlap < b.overlap; });
+  return best == places.end() ? Place{} : *best;
+}
+
+/// No motion is known at the second sweep, and along a road it has several optima: at rest, too, when most of what it
+/// sees runs along the road or drives with the sensor. Registers it again from where the two sweeps have most in common
+/// along the direction that the first result constrains least, until that is where it ends.
+void SecondSweep::move_to_most_overlap(Registration& found) const {
+  const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
+  const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
+  for (int look = 0; look < kLooks; ++look) {
+    const SweepOverlap overlap = overlap_with_first(found, weakest);
+    const auto of = [&overlap](const Registration& r) { return overlap.at(r.icp.state, r.first->twist); };
+    const double here = of(found);
+    const Place other_place = best_elsewhere(found, overlap, weakest);
+    found.cut = parts_.deadline.passed_after(parts_.first_map_ms);  // then some places were not looked at
+    if (found.cut) {
+      return;
     }
+    found.ambiguous = other_place.overlap > kFitsWorse * here;
+    if (other_place.overlap <= here) {
+      return;
+    }
+    Registration other = in_rounds(other_place.state, parts_.tracker.prior(other_place.state), kNearbyRounds);
+    other.starts = ++found.starts;
+    if (of(other) <= here) {
+      return;
+    }
+    other.ambiguous = true;  // until it was looked at
+    found = std::move(other);
   }
-  starts.erase(starts.begin());
-  return starts;
 }
 
 }  // namespace rilo

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "odometry/pose_search.hpp"
+#include "odometry/sweep_overlap.hpp"
 
 namespace rilo {
 
@@ -17,8 +17,15 @@ class SecondSweep {
   Registration registered(const MotionState& start, const MotionPrior& prior) const;
 
  private:
+  struct Place {
+    MotionState state;
+    double overlap = 0;
+  };
+
   Registration in_rounds(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
-  std::vector<MotionState> other_starts(const Registration& found) const;
+  SweepOverlap overlap_with_first(const Registration& found, const Eigen::Vector3d& direction) const;
+  Place best_elsewhere(const Registration& found, const SweepOverlap& overlap, const Eigen::Vector3d& direction) const;
+  void move_to_most_overlap(Registration& found) const;
   std::optional<LocalMap> of_first_sweep(const TimedCloud& first, const Vector6d& twist) const;
   const LocalMap& or_present(const std::optional<LocalMap>& compensated) const;
   Vector6d twist_of_first(const IcpResult& second, double sigma_m, const Deadline& deadline) const;

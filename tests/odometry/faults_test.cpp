@@ -91,6 +91,21 @@ TEST(Faults, SecondSweepFromElsewhere) {
   EXPECT_EQ(wrong_poses(sweeps), 0U);
 }
 
+// What is empty says nothing against the map: the next sweeps are registered within the usual gate.
+TEST(Faults, EmptySweepsAfterTheFirstDoNotWidenTheGateOfTheNext) {
+  Odometry odometry({});
+  const double usual_m = OdometryConfig().threshold.initial_m;
+  for (std::size_t i = 0; i < 7; ++i) {
+    const SweepView view = drive()[i].sweep;
+    SweepView empty;
+    empty.stamp_ns = view.stamp_ns;
+    const SweepResult result = odometry.register_sweep(i >= 1 && i <= 3 ? empty : view);
+    if (i > 4) {
+      EXPECT_LE(result.stats.sigma_th_m, usual_m) << i;
+    }
+  }
+}
+
 TEST(Faults, GapAfterTheFirstSweep) {
   std::vector<Recorded> sweeps = drive();
   sweeps.erase(sweeps.begin() + 1, sweeps.begin() + 11);

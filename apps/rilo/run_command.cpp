@@ -62,7 +62,8 @@ Leaves in --out: poses_lidar.txt, poses_camera.txt (where DATA has a calib.txt),
 (Foxglove, ROS 2), config.yaml (loadable), calibration.yaml (what was learnt about the sensor), sweeps.csv (one line of
 statistics per sweep), metrics.json, report.html. Where ground truth lies in DATA, errors are in metrics.json and the
 report. While running, poses_lidar.partial.txt grows by one line per sweep.
-Ctrl-C or SIGTERM ends the run after the current sweep and writes what there is (exit code 130, 143); a second one ends
+Ctrl-C, SIGTERM or a closed terminal ends the run after the current sweep and writes what there is (exit code 130, 143,
+129); a second one ends
 it at once.)";
 
 OdometryConfig configuration(const RunFlags& flags) {

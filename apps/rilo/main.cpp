@@ -28,7 +28,7 @@ Exit codes: 0 success, 1 unexpected error, 2 wrong usage or configuration, 3 dat
 written).)";
 
 int fail(int code, const std::string& message) {
-  std::cerr << "rilo: error: " << message << '\n';
+  std::cerr << "rilo: error: " << rilo::printable(message) << '\n';
   return code;
 }
 

@@ -58,6 +58,15 @@ TEST(RunFlags, WithoutPointTimesItSaysWhatToDo) {
   EXPECT_EQ(notes("azimuth"), 0U);
 }
 
+TEST(RunFlags, AnEmptyFirstSweepDoesNotSayThatTimesAreMissing) {
+  const TempDir folder;
+  const auto drive = copy_of_drive(folder);
+  replace(sweep_file(drive, 0), "");
+  replace(drive / "times_pt" / "000000.bin", "");
+  const Outcome outcome = rilo_succeeds({"run", drive, "--count", "4"});
+  EXPECT_EQ(outcome.err.find("no per-point times"), std::string::npos) << outcome.err;
+}
+
 TEST(RunFlags, RawPointsWithoutTimesAreFoundOut) {
   const TempDir folder;
   const auto drive = folder / "drive";

@@ -152,7 +152,9 @@ void observe_and_run(const RunFlags& flags, std::unique_ptr<Session> session, Pa
 void show_the_rest(const RunFlags& flags, const RunRecord& run, LiveView& view) {
   if (!flags.quiet) std::cerr << "rilo: done; the viewer stays at " << view.viewer().url() << " until Ctrl-C\n";
   try {
-    const auto source = source_of(flags)();
+    RunFlags same = flags;
+    if (run.trial.raw()) same.source.options.point_times = PointTimes::kOrder;  // as the run has read them
+    const auto source = source_of(same)();
     source->skip(flags.start);
     view.show_missing(*source, run);
   } catch (const IoError& error) {

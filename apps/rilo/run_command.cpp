@@ -239,9 +239,11 @@ void add_flags(CLI::App& command, RunFlags& flags) {
   command.add_flag("--map-normals", flags.map_normals, "normals in the map, towards where the surface was seen from");
   command.add_flag("--map-intensity", flags.map_intensity, "intensities in the map");
   command.add_option("--odom-frame", flags.odom_frame, "odometry frame in trajectory.mcap and trajectory.bag")
-      ->default_str("odom");
+      ->default_str("odom")
+      ->check(frame_given());
   command.add_option("--lidar-frame", flags.lidar_frame, "sensor frame in trajectory.mcap and trajectory.bag")
-      ->default_str("the data's frame_id, else lidar");
+      ->default_str("the data's frame_id, else lidar")
+      ->check(frame_given());
   add_count(command, "--start", flags.start, kAnyCount, "skip that many sweeps");
   add_count(command, "--count", flags.count, kAnyCount, "run that many sweeps; 0: all");
   command

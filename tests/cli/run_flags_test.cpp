@@ -67,6 +67,20 @@ TEST(RunFlags, AnEmptyFirstSweepDoesNotSayThatTimesAreMissing) {
   EXPECT_EQ(outcome.err.find("no per-point times"), std::string::npos) << outcome.err;
 }
 
+TEST(RunFlags, TheFramesOfTheTrajectoryDiffer) {
+  const TempDir folder;
+  const std::vector<std::string> run = {"run", shared_drive(), "--count", "1", "--out", folder / "out"};
+  const auto refused = [&](const std::vector<std::string>& frames, const std::vector<std::string>& parts) {
+    std::vector<std::string> command = run;
+    command.insert(command.end(), frames.begin(), frames.end());
+    rilo_fails(2, command, parts);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  };
+  refused({"--odom-frame", "map", "--lidar-frame", "/map"}, {"both map", "two frames"});
+  refused({"--lidar-frame", "odom"}, {"both odom"});
+  refused({"--odom-frame", ""}, {"--odom-frame", "the name of a frame"});
+}
+
 TEST(RunFlags, RawPointsWithoutTimesAreFoundOut) {
   const TempDir folder;
   const auto drive = folder / "drive";

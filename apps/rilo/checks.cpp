@@ -37,6 +37,14 @@ CLI::Validator path_given() {
           ""};
 }
 
+CLI::Validator frame_given() {
+  return {[](std::string& text) {
+            const bool empty = text.find_first_not_of('/') == std::string::npos;
+            return empty ? "the name of a frame was expected, not \"" + text + '"' : "";
+          },
+          ""};
+}
+
 CLI::Option* add_number(CLI::App& command, const char* name, double& value, double least, double most,
                         const char* help) {
   return command.add_option(name, value, help)->check(number_within(least, most))->capture_default_str();

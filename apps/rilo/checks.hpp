@@ -21,6 +21,9 @@ CLI::Validator whole_number(std::int64_t most = kAnyCount);
 /// Not empty: an unset variable of a script is not a path.
 CLI::Validator path_given();
 
+/// The same for a frame of ROS, also without the slash that some begin with.
+CLI::Validator frame_given();
+
 /// Options with such checks; the help shows their defaults.
 CLI::Option* add_number(CLI::App& command, const char* name, double& value, double least, double most,
                         const char* help);

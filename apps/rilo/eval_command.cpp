@@ -46,6 +46,8 @@ struct Sequence {
   std::string protocol;
   std::vector<std::string> warnings;
   Evaluation evaluation;
+  bool by_stamp = false;
+  bool of_instant = false;
 };
 
 Sequence evaluate_pair(const EvalFlags& flags, const std::string& truth_path, const std::string& estimate_path) {
@@ -55,8 +57,13 @@ Sequence evaluate_pair(const EvalFlags& flags, const std::string& truth_path, co
   for (const std::string& warning : paired.warnings) {
     std::cerr << "rilo: warning: " << estimate_path << ": " << warning << '\n';
   }
-  return {valid_utf8(truth.file.string()), valid_utf8(estimate_path), paired.protocol, paired.warnings,
-          evaluate(paired.poses.truth, paired.poses.estimate)};
+  return {valid_utf8(truth.file.string()),
+          valid_utf8(estimate_path),
+          paired.protocol,
+          paired.warnings,
+          evaluate(paired.poses.truth, paired.poses.estimate),
+          paired.by_stamp,
+          truth.of_instant};
 }
 
 nlohmann::json sequence_json(const Sequence& sequence) {
@@ -89,12 +96,25 @@ void print_table(const std::vector<Sequence>& sequences, const KittiBenchmark& b
   if (far) std::cout << benchmark_table(benchmark, sequences.size());
 }
 
-int eval(const EvalFlags& flags) {
+/// Options that make no difference to any of the sequences.
+void warn_of_idle_options(const CLI::App& command, const std::vector<Sequence>& sequences) {
+  const auto any = [&](const auto& uses) { return std::any_of(sequences.begin(), sequences.end(), uses); };
+  const auto check = [&](const char* option, bool used, const char* why) {
+    if (command.count(option) == 0 || used) return;
+    std::cerr << "rilo: warning: " << option << " is ignored: " << why << '\n';
+  };
+  check("--start", any([](const Sequence& s) { return !s.by_stamp; }), "the poses are paired by stamp");
+  check("--max-gap-s", any([](const Sequence& s) { return s.by_stamp; }), "the poses are paired by index");
+  check("--instant", any([](const Sequence& s) { return s.of_instant; }), "GT is not a drive simulator's folder");
+}
+
+int eval(const EvalFlags& flags, const CLI::App& command) {
   if (flags.more.size() % 2 != 0) throw RunError(RunErrorKind::kUsage, "eval: further files come in pairs GT EST");
   std::vector<Sequence> sequences = {evaluate_pair(flags, flags.truth, flags.estimate)};
   for (std::size_t i = 0; i + 1 < flags.more.size(); i += 2) {
     sequences.push_back(evaluate_pair(flags, flags.more[i], flags.more[i + 1]));
   }
+  warn_of_idle_options(command, sequences);
   std::vector<KittiError> errors;
   for (const Sequence& sequence : sequences) errors.push_back(sequence.evaluation.kitti);
   const KittiBenchmark benchmark = kitti_benchmark(errors);
@@ -129,10 +149,11 @@ void add_flags(CLI::App& command, EvalFlags& flags) {
 
 void add_eval_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<EvalFlags>();
+  flags->pairing.index_advised = true;
   CLI::App* command = app.add_subcommand("eval", "errors of trajectories against ground truth");
   command->footer(kEvalFooter);
   add_flags(*command, *flags);
-  command->callback([flags, &exit_code] { exit_code = eval(*flags); });
+  command->callback([flags, command, &exit_code] { exit_code = eval(*flags, *command); });
 }
 
 }  // namespace rilo::cli

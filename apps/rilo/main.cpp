@@ -24,10 +24,11 @@ constexpr const char* kFooter = R"(Examples:
   rilo config --dump > my.yaml                              every key with its unit and meaning
 
 Exit codes: 0 success, 1 unexpected error, 2 wrong usage or configuration, 3 data missing or malformed,
-4 results could not be written, 130 interrupted by Ctrl-C, 143 terminated (what was done is written).)";
+4 results could not be written, 130 interrupted by Ctrl-C, 143 terminated, 129 terminal closed (what was done is
+written).)";
 
 int fail(int code, const std::string& message) {
-  std::cerr << "rilo: error: " << message << '\n';
+  std::cerr << "rilo: error: " << rilo::printable(message) << '\n';
   return code;
 }
 

@@ -78,12 +78,19 @@ QualityRun measure(const QualityFlags& flags) {
   progress.finish();
   const MapQuality quality = meter.result();
   return {quality,
-          fmt::format("{}; {}, {} of {} have one", poses.protocol(), counted(poses.size(), "pose"), quality.sweeps,
+          fmt::format("{}; {}, for {} of {}", poses.protocol(), counted(poses.size(), "pose"), quality.sweeps,
                       counted(at.index, "sweep")),
           source->info()};
 }
 
 void check_found(const QualityFlags& flags, const QualityRun& run) {
+  if (run.quality.sweeps == 0) {
+    throw RunError(
+        RunErrorKind::kBadData,
+        fmt::format("{} and {}: no sweep has a pose ({}). Check that both use the same clock; otherwise take "
+                    "--associate index, or a larger --max-gap-s",
+                    flags.data, flags.poses, run.protocol));
+  }
   if (run.quality.windows == 0) {
     throw RunError(RunErrorKind::kBadData,
                    fmt::format("{} and {}: {} ({}); expected at least one window of {}. Give more sweeps or a smaller "

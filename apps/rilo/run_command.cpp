@@ -62,7 +62,8 @@ Leaves in --out: poses_lidar.txt, poses_camera.txt (where DATA has a calib.txt),
 (Foxglove, ROS 2), config.yaml (loadable), calibration.yaml (what was learnt about the sensor), sweeps.csv (one line of
 statistics per sweep), metrics.json, report.html. Where ground truth lies in DATA, errors are in metrics.json and the
 report. While running, poses_lidar.partial.txt grows by one line per sweep.
-Ctrl-C or SIGTERM ends the run after the current sweep and writes what there is (exit code 130, 143); a second one ends
+Ctrl-C, SIGTERM or a closed terminal ends the run after the current sweep and writes what there is (exit code 130, 143,
+129); a second one ends
 it at once.)";
 
 OdometryConfig configuration(const RunFlags& flags) {
@@ -151,7 +152,9 @@ void observe_and_run(const RunFlags& flags, std::unique_ptr<Session> session, Pa
 void show_the_rest(const RunFlags& flags, const RunRecord& run, LiveView& view) {
   if (!flags.quiet) std::cerr << "rilo: done; the viewer stays at " << view.viewer().url() << " until Ctrl-C\n";
   try {
-    const auto source = source_of(flags)();
+    RunFlags same = flags;
+    if (run.trial.raw()) same.source.options.point_times = PointTimes::kOrder;  // as the run has read them
+    const auto source = source_of(same)();
     source->skip(flags.start);
     view.show_missing(*source, run);
   } catch (const IoError& error) {
@@ -236,9 +239,11 @@ void add_flags(CLI::App& command, RunFlags& flags) {
   command.add_flag("--map-normals", flags.map_normals, "normals in the map, towards where the surface was seen from");
   command.add_flag("--map-intensity", flags.map_intensity, "intensities in the map");
   command.add_option("--odom-frame", flags.odom_frame, "odometry frame in trajectory.mcap and trajectory.bag")
-      ->default_str("odom");
+      ->default_str("odom")
+      ->check(frame_given());
   command.add_option("--lidar-frame", flags.lidar_frame, "sensor frame in trajectory.mcap and trajectory.bag")
-      ->default_str("the data's frame_id, else lidar");
+      ->default_str("the data's frame_id, else lidar")
+      ->check(frame_given());
   add_count(command, "--start", flags.start, kAnyCount, "skip that many sweeps");
   add_count(command, "--count", flags.count, kAnyCount, "run that many sweeps; 0: all");
   command

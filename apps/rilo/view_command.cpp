@@ -1,4 +1,5 @@
 // rilo view: replay a finished run in the browser.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -7,13 +8,14 @@
 #include <utility>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "checks.hpp"
 #include "command.hpp"
 #include "console/interrupt.hpp"
+#include "console/text.hpp"
 #include "results/live_view.hpp"
 #include "results/saved_run.hpp"
-#include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "source_flags.hpp"
@@ -72,8 +74,21 @@ std::unique_ptr<ScanSource> open_data(const ViewFlags& flags, const std::string&
   }
 }
 
-/// Sends all sweeps, with the points of those that `source` still gives.
-void send_sweeps(LiveView& view, const RunRecord& run, ScanSource* source) {
+/// Other data under the same numbers would be shown as if the run had seen them.
+void check_points(const Sweep& sweep, const RunRecord& run, std::size_t i, const std::string& data) {
+  const std::size_t recorded = run.results[i].stats.points_in;
+  if (sweep.points.size() == recorded) return;
+  throw RunError(
+      RunErrorKind::kBadData,
+      fmt::format("{}: sweep {} has {}; expected {}, as in sweeps.csv. These are not the data of the run, or "
+                  "are read with other options: give them with --data, and the run's options",
+                  data, run.indices[i], counted(sweep.points.size(), "point"), recorded));
+}
+
+/// Sends all sweeps, with the points of those that `source` still gives. @throws RunError when they are other ones.
+void send_sweeps(LiveView& view, const RunRecord& run, ScanSource* source, const std::string& data) {
+  const bool known = std::any_of(run.results.begin(), run.results.end(),
+                                 [](const SweepResult& result) { return result.stats.points_in > 0; });
   std::size_t done = 0;
   try {
     while (source != nullptr && done < run.results.size() && InterruptGuard::signal() == 0) {
@@ -84,6 +99,7 @@ void send_sweeps(LiveView& view, const RunRecord& run, ScanSource* source) {
         view.show(run.indices[done], run.results[done], {});
       }
       if (done < run.results.size() && run.indices[done] == index) {
+        if (known) check_points(*sweep, run, done, data);
         view.show(index, run.results[done], std::move(*sweep));
         ++done;
       }
@@ -107,8 +123,7 @@ int replay(ViewFlags flags) {
   }
   const RunRecord& run = saved.record;
   const std::string data = flags.data.empty() ? run.data.string() : flags.data;
-  const fs::path config = folder / "config.yaml";
-  ViewInfo info = view_info(data, fs::exists(config) ? load_config(config) : OdometryConfig{});
+  ViewInfo info = view_info(data, run.config);
   info.live = false;
   info.sweeps = run.results.size();
   const auto source = open_data(flags, data, saved.metrics, info.note);
@@ -118,7 +133,7 @@ int replay(ViewFlags flags) {
 
   const InterruptGuard guard;
   LiveView live(info, flags.options, flags.no_truth ? std::nullopt : std::optional(TruthTrack(data)));
-  send_sweeps(live, run, source.get());
+  send_sweeps(live, run, source.get(), data);
   if (!source) send_map(live, run);
   live.viewer().finish();
   InterruptGuard::wait();

@@ -38,8 +38,7 @@ std::string host_name() {
 
 // Nothing of the child is worth finishing: signals end it at once.
 void become_child(pid_t parent) {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  InterruptGuard::release();
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(kUnexpected);

@@ -67,6 +67,7 @@ ReportInput parse_report_input(const std::string& word) {
   const std::size_t slash = named.name.rfind('/');
   input.sequence = slash == std::string::npos ? "" : valid_utf8(named.name.substr(0, slash));
   input.name = valid_utf8(slash == std::string::npos ? named.name : named.name.substr(slash + 1));
+  input.named = !input.name.empty();
   if (!detail::path_exists(named.path)) throw IoError({input.path, "", "nothing", kExpectedResults, "Check the path"});
   const auto kind = kind_of(input.path);
   if (!kind) {

@@ -13,6 +13,7 @@ struct ReportInput {
   std::string sequence;  ///< empty: as the results say, or the only one there is
   std::string name;      ///< empty: from the path
   std::filesystem::path path;
+  bool named = false;  ///< by NAME=
 };
 
 /// `[[SEQUENCE/]NAME=]PATH`. A word that is an existing path is a path, whatever it contains.

@@ -8,6 +8,7 @@
 
 #include "bench/report_sequence.hpp"
 #include "console/text.hpp"
+#include "io/stamp_difference.hpp"
 #include "rilo/session/session.hpp"
 
 namespace rilo {
@@ -19,7 +20,9 @@ namespace {
 bool same_data(const RunRecord& a, const RunRecord& b) {
   constexpr std::int64_t kNear_ns = 1'000'000'000;
   for (std::size_t i = 0, k = 0; i < a.indices.size() && k < b.indices.size();) {
-    if (a.indices[i] == b.indices[k]) return std::abs(a.results[i].stamp_ns - b.results[k].stamp_ns) < kNear_ns;
+    if (a.indices[i] == b.indices[k]) {
+      return std::abs(detail::stamp_difference(a.results[i].stamp_ns, b.results[k].stamp_ns)) < kNear_ns;
+    }
     a.indices[i] < b.indices[k] ? ++i : ++k;
   }
   return a.data == b.data;
@@ -104,10 +107,16 @@ std::string default_name(const ReportInput& input, const std::string& sequence) 
   return name == sequence && !above.empty() && above != "." && above != ".." ? above : name;
 }
 
-/// Names within a sequence must differ: equal ones are distinguished by their paths, and if need be by a number.
+/// Names within a sequence must differ: equal ones that nobody has given are distinguished by their paths, and if need
+/// be by a number.
 void set_names(ReportSequence& sequence) {
+  std::set<std::string> given;
   for (ReportEntry& entry : sequence.entries) {
     if (entry.input.name.empty()) entry.input.name = default_name(entry.input, sequence.name);
+    if (entry.input.named && !given.insert(entry.input.name).second) {
+      throw RunError(RunErrorKind::kUsage,
+                     fmt::format("two results are named {}; give each of a sequence its own NAME=", entry.input.name));
+    }
   }
   std::multiset<std::string> names;
   for (const ReportEntry& entry : sequence.entries) names.insert(entry.input.name);

@@ -14,7 +14,7 @@ enum ExitCode : int {
   kUsage = 2,         ///< command line or configuration
   kBadData = 3,       ///< data missing, malformed or of no known format
   kCannotWrite = 4,   ///< results could not be written
-  kSignalBase = 128,  ///< + the signal's number: 130 SIGINT, 143 SIGTERM; what was done is written
+  kSignalBase = 128,  ///< + the signal's number: 129 SIGHUP, 130 SIGINT, 143 SIGTERM; what was done is written
 };
 
 struct Failure {

@@ -21,20 +21,32 @@ void install(int number) {
   sigaction(number, &action, nullptr);
 }
 
+// nohup's: who starts a program so wants it to outlive the terminal.
+bool ignores_hangup() {
+  struct sigaction action = {};
+  return sigaction(SIGHUP, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   received = 0;
   install(SIGINT);
   install(SIGTERM);
+  if (!ignores_hangup()) install(SIGHUP);
   // A reader of our messages that goes away (`| head`) must not take the results with it.
   std::signal(SIGPIPE, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
+  release();
+  std::signal(SIGPIPE, SIG_DFL);
+}
+
+void InterruptGuard::release() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
-  std::signal(SIGPIPE, SIG_DFL);
+  if (!ignores_hangup()) std::signal(SIGHUP, SIG_DFL);
 }
 
 int InterruptGuard::signal() { return received; }

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "io/text.hpp"
+#include "console/text.hpp"
 
 namespace rilo {
 
@@ -45,8 +45,7 @@ void Progress::update(std::size_t done, const std::string& note) {
 std::string Progress::line(std::size_t done, const std::string& note) const {
   const double seconds = std::max(1e-9, std::chrono::duration<double>(shown_ - begin_).count());
   const double rate = static_cast<double>(done) / seconds;
-  if (!total_ || *total_ == 0)
-    return fmt::format("{} {}, {:.1f}/s {}", what_, detail::counted(done, "sweep"), rate, note);
+  if (!total_ || *total_ == 0) return fmt::format("{} {}, {:.1f}/s {}", what_, counted(done, "sweep"), rate, note);
   const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(*total_));
   const auto filled = static_cast<std::size_t>(share * static_cast<double>(kBarWidth));
   const double left = rate > 0.0 ? static_cast<double>(*total_ - std::min(done, *total_)) / rate : 0.0;
@@ -56,7 +55,7 @@ std::string Progress::line(std::size_t done, const std::string& note) const {
 
 void Progress::say(const std::string& text) {
   if (quiet_) return;
-  show((terminal_ ? kClearLine : "") + text + "\n");
+  show((terminal_ ? kClearLine : "") + printable(text) + "\n");
 }
 
 void Progress::finish() {

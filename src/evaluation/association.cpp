@@ -75,6 +75,10 @@ MatchedPoses match_by_stamp(const Trajectory& truth, const Trajectory& estimate,
   for (std::size_t place = 0; place < order.size(); ++place) {
     if (taken_by[place]) add_match(truth, order[place], estimate, *taken_by[place], matched);
   }
+  if (truth.size() < 2 || estimate.size() < 2) {
+    throw std::invalid_argument("at least two poses of each are needed, found " + std::to_string(truth.size()) +
+                                " true and " + std::to_string(estimate.size()) + " estimated");
+  }
   if (matched.truth.size() < 2) {
     throw std::invalid_argument("only " + std::to_string(matched.truth.size()) + " of " +
                                 std::to_string(estimate.size()) + " estimated poses have a ground-truth pose within " +

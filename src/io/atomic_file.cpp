@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cerrno>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -34,8 +35,8 @@ std::string remedy_for(int error_number) {
 
 fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
 
-// A link is written through: the file that it points to is replaced, the link stays. What cannot even be looked at, as
-// a name that is too long, is refused here: a file without a name would find it out at the end only.
+// A link is written through: the file that it points to is replaced or made, the link stays. What cannot even be looked
+// at, as a name that is too long, is refused here: a file without a name would find it out at the end only.
 fs::path resolved(const fs::path& target) {
   std::error_code error;
   const fs::file_status status = fs::status(target, error);
@@ -49,6 +50,7 @@ fs::path resolved(const fs::path& target) {
     }
     return fs::canonical(target);
   }
+  if (fs::is_symlink(fs::symlink_status(target, error))) return resolved(folder_of(target) / fs::read_symlink(target));
   const fs::path folder = folder_of(target);
   if (!fs::is_directory(folder, error)) {
     throw IoError({target, "", "its folder " + folder.string() + " does not exist", "an existing folder",
@@ -87,6 +89,13 @@ int open_nameless([[maybe_unused]] const fs::path& target) {
 #else
   return -1;
 #endif
+}
+
+// A file that its owner keeps to himself stays so when it is replaced; where modes cannot be set, it is written all the
+// same.
+void keep_mode(int descriptor, const fs::path& target) {
+  struct stat old = {};
+  if (::stat(target.c_str(), &old) == 0) (void)::fchmod(descriptor, old.st_mode & 0777U);
 }
 
 // The rename itself must survive a power cut; where folders cannot be synced, nothing is lost.
@@ -136,6 +145,7 @@ fs::path AtomicFile::temporary() const {
 
 void AtomicFile::commit() {
   flush();
+  keep_mode(descriptor_, target_);
   if (::fsync(descriptor_) != 0) fail("cannot write", errno);
   if (temporary_.empty()) give_name();
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write", errno);

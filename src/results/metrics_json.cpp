@@ -272,6 +272,8 @@ nlohmann::json read_json_object(const std::filesystem::path& file, const std::st
     json = nlohmann::json::parse(stream);
   } catch (const nlohmann::json::parse_error& error) {
     throw IoError({file, fmt::format("byte {}", error.byte), "this is not JSON", expected, ""});
+  } catch (const nlohmann::json::exception& error) {
+    throw IoError({file, "", std::string("JSON that cannot be used: ") + error.what(), expected, remedy});
   }
   if (!json.is_object())
     throw IoError({file, "", std::string("JSON of another kind, ") + json.type_name(), expected, ""});

@@ -45,6 +45,7 @@ PoseFile without_stamps(const std::filesystem::path& file, const std::vector<SE3
 PoseFile truth_of_data(const std::filesystem::path& data, GroundTruth truth, PoseInstant instant) {
   PoseFile result = without_stamps(truth.file, truth.T_world_lidar);
   result.warnings = std::move(truth.warnings);
+  result.of_instant = parse_pose_instant(truth.instant).has_value();
   SweepTimes times = sweep_times(data, instant);
   result.stamped = !times.stamps_ns.empty() && times.stamps_ns.size() >= result.trajectory.size();
   if (!result.stamped) return result;
@@ -88,16 +89,20 @@ PairedPoses paired_by_stamp(const PoseFile& truth, const PoseFile& estimate, con
   try {
     return {by_stamp(truth, estimate.trajectory, options.max_gap_s),
             fmt::format("paired by stamp, at most {} s apart", options.max_gap_s),
-            {}};
+            {},
+            true};
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("{}, or take --associate index", error.what()));
+    const bool enough = truth.trajectory.size() > 1 && estimate.trajectory.size() > 1;
+    throw std::invalid_argument(error.what() +
+                                std::string(enough && options.index_advised ? ", or take --associate index" : ""));
   }
 }
 
 PairedPoses paired_by_index(const PoseFile& truth, const PoseFile& estimate, const PairingOptions& options) {
   PairedPoses paired{by_index(truth.trajectory, estimate.trajectory, options.first),
                      fmt::format("paired by index from true pose {} on", options.first),
-                     {}};
+                     {},
+                     false};
   const std::size_t in_truth = truth.trajectory.size() - std::min(options.first, truth.trajectory.size());
   const std::size_t in_estimate = estimate.trajectory.size();
   if (in_truth != in_estimate) {

@@ -19,6 +19,7 @@ struct PoseFile {
   /// Of a data folder: an estimate's poses may be stamped so much later than the sweeps, the likeliest first.
   std::vector<std::int64_t> offsets_ns = {};
   std::vector<std::string> warnings = {};
+  bool of_instant = false;  ///< of a data folder that has poses of several times of the sweeps
 };
 
 /// KITTI form (12 numbers a line) or TUM form (8), detected from the first line. @throws IoError
@@ -38,13 +39,15 @@ Pairing parse_pairing(const std::string& text);
 struct PairingOptions {
   Pairing pairing = Pairing::kAuto;
   double max_gap_s = 0.02;
-  std::size_t first = 0;  ///< by index: the true pose that belongs to the first estimate
+  std::size_t first = 0;       ///< by index: the true pose that belongs to the first estimate
+  bool index_advised = false;  ///< there is an option --associate
 };
 
 struct PairedPoses {
   MatchedPoses poses;
   std::string protocol;               ///< how they were paired, and what was dropped
   std::vector<std::string> warnings;  ///< of the truth, and when it may be wrong
+  bool by_stamp = false;
 };
 
 /// @throws RunError when the two cannot be paired so.

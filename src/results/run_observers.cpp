@@ -43,8 +43,9 @@ void ProgressLine::on_read(const Sweep& /*sweep*/, const std::string& /*name*/) 
 }
 
 void ProgressLine::on_registered(const RegisteredSweep& sweep) {
-  if (done_ == 0 && times_ == PointTimes::kAuto && sweep.sweep.times_s.empty() && !note_given_) {
-    note_given_ = true;
+  const bool first_points = !times_judged_ && times_ == PointTimes::kAuto && !sweep.sweep.points.empty();
+  if (first_points) times_judged_ = true;
+  if (first_points && sweep.sweep.times_s.empty()) {
     const bool in_order = order_times(sweep.sweep.points, 1).has_value();
     progress_.say(
         fmt::format("rilo: note: no per-point times: no motion compensation; raw points of a spinning sensor: "
@@ -57,7 +58,7 @@ void ProgressLine::on_registered(const RegisteredSweep& sweep) {
 
 void ProgressLine::on_trial(const CompensationTrial& trial) {
   if (!trial.raw() && !trial.compensated()) return;
-  note_given_ = true;
+  times_judged_ = true;
   progress_.say(fmt::format("rilo: note: no per-point times; {} (--point-times {}: the other way)",
                             trial_outcome(trial), trial.raw() ? "none" : "order"));
 }

@@ -43,7 +43,7 @@ class ProgressLine final : public SessionObserver {
  private:
   Progress progress_;
   PointTimes times_;
-  bool note_given_ = false;
+  bool times_judged_ = false;  // whether the points have times: at the first sweep that has points
   std::size_t done_ = 0;
 };
 

@@ -24,13 +24,23 @@ namespace {
 namespace fs = std::filesystem;
 
 // A frame of ROS 1 may begin with a slash, which TF2 takes for a mistake.
+std::string without_slash(std::string frame) { return frame.erase(0, frame.find_first_not_of('/')); }
+
 RecordingNames names_of(const OutputRequest& flags, const SourceInfo& source) {
   RecordingNames names;
-  if (!flags.odom_frame.empty()) names.odom_frame = flags.odom_frame;
-  std::string frame = flags.lidar_frame.empty() ? source.frame_id : flags.lidar_frame;
-  frame.erase(0, frame.find_first_not_of('/'));
-  if (!frame.empty()) names.lidar_frame = frame;
+  if (!flags.odom_frame.empty()) names.odom_frame = without_slash(flags.odom_frame);
+  const std::string given = without_slash(flags.lidar_frame);
+  const std::string frame = given.empty() ? without_slash(source.frame_id) : given;
+  // Points that somebody has put into the odometry frame say nothing about the sensor's.
+  if (!frame.empty() && (!given.empty() || frame != names.odom_frame)) names.lidar_frame = frame;
   return names;
+}
+
+void check_frames(const OutputRequest& flags) {
+  const RecordingNames names = names_of(flags, {});
+  if (names.odom_frame != names.lidar_frame) return;
+  throw RunError(RunErrorKind::kUsage, "--odom-frame and --lidar-frame are both " + names.odom_frame +
+                                           ": expected two frames, between which the trajectory is the transform");
 }
 
 void write_poses(const fs::path& folder, const RunRecord& run) {
@@ -116,6 +126,7 @@ void create_folder(const fs::path& folder) {
 }
 
 void prepare_outputs(const OutputRequest& flags) {
+  check_frames(flags);
   if (!flags.map.empty() && !flags.map.ends_with(".ply") && !flags.map.ends_with(".pcd")) {
     throw RunError(RunErrorKind::kUsage, "--map " + flags.map + ": expected a file that ends in .ply or .pcd");
   }

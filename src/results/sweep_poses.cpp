@@ -21,7 +21,7 @@ float middle_s(const Sweep& sweep) { return instant_s(sweep.times_s, PoseInstant
 }  // namespace
 
 std::int64_t middle_ns(const Sweep& sweep) {
-  return sweep.stamp_ns + detail::nanoseconds(static_cast<double>(middle_s(sweep)));
+  return detail::stamp_difference(sweep.stamp_ns, -detail::nanoseconds(static_cast<double>(middle_s(sweep))));
 }
 
 SweepPoses::SweepPoses(PoseFile file, const PairingOptions& options)
@@ -45,7 +45,8 @@ std::optional<SweepPose> SweepPoses::of(const SweepWithNeighbours& sweep, double
   const std::size_t i = by_stamp_ ? nearest(sweep.middle_ns) : sweep.index;
   if (i >= size()) return std::nullopt;
   if (!by_stamp_) return SweepPose{file_.trajectory[i].T_odom_lidar, twist(i, sweep, period_s)};
-  if (std::abs(static_cast<double>(file_.trajectory[i].stamp_ns - sweep.middle_ns)) > max_gap_s_ * 1e9) {
+  const std::int64_t gap_ns = detail::stamp_difference(file_.trajectory[i].stamp_ns, sweep.middle_ns);
+  if (std::abs(static_cast<double>(gap_ns)) > max_gap_s_ * 1e9) {
     return std::nullopt;
   }
   return SweepPose{file_.trajectory[i].T_odom_lidar, twist(i)};
@@ -58,8 +59,10 @@ std::size_t SweepPoses::nearest(std::int64_t stamp_ns) const {
                        [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
   const auto i = static_cast<std::size_t>(after - poses.begin());
   if (i == 0) return i;
-  if (i == size() || stamp_ns - poses[i - 1].stamp_ns <= poses[i].stamp_ns - stamp_ns) return i - 1;
-  return i;
+  if (i == size()) return i - 1;
+  const bool earlier = detail::stamp_difference(stamp_ns, poses[i - 1].stamp_ns) <=
+                       detail::stamp_difference(poses[i].stamp_ns, stamp_ns);
+  return earlier ? i - 1 : i;
 }
 
 // Between the neighbouring poses: what the trajectory itself says about the motion during the sweep.

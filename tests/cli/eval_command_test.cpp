@@ -125,6 +125,22 @@ TEST(EvalCommand, TumIsPairedByStamp) {
   EXPECT_EQ(eval({truth, later, "--max-gap-s", "0.06"})["poses"], 50);
 }
 
+TEST(EvalCommand, OptionsThatMakeNoDifferenceAreNamed) {
+  const TempDir folder;
+  const std::string kitti = folder.write("a.txt", straight_kitti(20));
+  const std::string tum = folder.write("a.tum", straight_tum(20, 0));
+  const auto ignored = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "eval");
+    return lines_with(rilo_succeeds(arguments).err, "rilo: warning: --");
+  };
+  const auto of_tum = ignored({tum, tum, "--start", "1", "--max-gap-s", "0.1"});
+  ASSERT_EQ(of_tum.size(), 1U);
+  EXPECT_EQ(of_tum[0], "rilo: warning: --start is ignored: the poses are paired by stamp");
+  EXPECT_EQ(ignored({kitti, kitti, "--start", "0", "--max-gap-s", "0.1", "--instant", "end"}).size(), 2U);
+  EXPECT_TRUE(ignored({tum, tum, kitti, kitti, "--start", "0", "--max-gap-s", "0.1"}).empty());
+  EXPECT_TRUE(ignored({shared_drive(), shared_drive() / "poses_end.txt", "--instant", "end"}).empty());
+}
+
 TEST(EvalCommand, MixedForms) {
   const TempDir folder;
   const std::string tum = folder.write("a.tum", straight_tum(20, 0));

@@ -49,6 +49,35 @@ TEST(InterruptedRun, CtrlCLeavesAValidPartialResult) { expect_valid_partial_resu
 
 TEST(InterruptedRun, TerminationLeavesAValidPartialResult) { expect_valid_partial_result(SIGTERM, 143); }
 
+// What the command inherits: the tests themselves may have been started with nohup.
+class InheritedHangup {
+ public:
+  explicit InheritedHangup(void (*action)(int)) : before_(std::signal(SIGHUP, action)) {}
+  ~InheritedHangup() { std::signal(SIGHUP, before_); }
+  InheritedHangup(const InheritedHangup&) = delete;
+  InheritedHangup& operator=(const InheritedHangup&) = delete;
+
+ private:
+  void (*before_)(int);
+};
+
+TEST(InterruptedRun, AClosedTerminalLeavesAValidPartialResult) {
+  const InheritedHangup usual(SIG_DFL);
+  expect_valid_partial_result(SIGHUP, 129);
+}
+
+TEST(InterruptedRun, WithNohupItOutlivesTheTerminal) {
+  const InheritedHangup ignored(SIG_IGN);
+  const TempDir folder;
+  const auto out = folder / "out";
+  CommandProcess run({"run", long_folder(folder, kMoreThanIsDone), "--out", out, "--threads", "1"});
+  ASSERT_TRUE(run.wait_until([&] { return complete_lines(out / "poses_lidar.partial.txt") >= kSweepsBefore; }));
+  EXPECT_FALSE(handles(run.pid(), SIGHUP));
+  run.send(SIGHUP);
+  const std::size_t done = complete_lines(out / "poses_lidar.partial.txt");
+  EXPECT_TRUE(run.wait_until([&] { return complete_lines(out / "poses_lidar.partial.txt") > done + kSweepsBefore; }));
+}
+
 // Stopped between the two, so that the second comes before the results of the first however slow the test is.
 TEST(InterruptedRun, ASecondCtrlCEndsItAtOnce) {
   constexpr int kMostTries = 20;

@@ -146,6 +146,8 @@ TEST(QualityCommand, WhatCannotBeUsed) {
   rilo_fails(3, arguments(shared_drive(), true_poses(), {"--radius", "0.001"}), {"no planar place", "--radius"});
   rilo_fails(2, arguments(shared_drive(), true_poses(), {"--window", "4"}), {"(--window) is 4; it must be at least 5"});
   rilo_fails(2, arguments(shared_drive(), true_poses(), {"--max-range", "2"}), {"max_range_m (--max-range)"});
+  const auto later = folder.write("later.tum", "900000000 0 0 0 0 0 0 1\n900000000.1 1 0 0 0 0 0 1\n");
+  rilo_fails(3, arguments(shared_drive(), later), {"no sweep has a pose", "clock", "--associate index", "--max-gap-s"});
   const std::filesystem::path spoilt = copy_of_drive(folder);
   append(sweep_file(spoilt, 5), 3);
   rilo_fails(3, arguments(spoilt, true_poses()), {"000005.bin"});

@@ -172,6 +172,8 @@ TEST(ReportCommand, RefusesWhatIsNoResult) {
   rilo_fails(3, {"report", folder / "none", "-o", page}, {"none", "rilo run", "Check the path"});
   rilo_fails(3, {"report", shared_drive(), "-o", page}, {"a folder with", "meta.json", "give them to rilo run"});
   rilo_fails(2, {"report", "name=", "-o", page}, {"name"});
+  const std::string named = "A=" + shared_run().string();
+  rilo_fails(2, {"report", named, named, "-o", page}, {"two results are named A", "NAME="});
   rilo_fails(3, {"report", shared_run(), "--gt", folder / "none", "-o", page}, {"--gt"});
   rilo_fails(4, {"report", shared_run(), "-o", folder / "no" / "page.html"}, {"page.html"});
   EXPECT_FALSE(fs::exists(page));

@@ -58,6 +58,29 @@ TEST(RunFlags, WithoutPointTimesItSaysWhatToDo) {
   EXPECT_EQ(notes("azimuth"), 0U);
 }
 
+TEST(RunFlags, AnEmptyFirstSweepDoesNotSayThatTimesAreMissing) {
+  const TempDir folder;
+  const auto drive = copy_of_drive(folder);
+  replace(sweep_file(drive, 0), "");
+  replace(drive / "times_pt" / "000000.bin", "");
+  const Outcome outcome = rilo_succeeds({"run", drive, "--count", "4"});
+  EXPECT_EQ(outcome.err.find("no per-point times"), std::string::npos) << outcome.err;
+}
+
+TEST(RunFlags, TheFramesOfTheTrajectoryDiffer) {
+  const TempDir folder;
+  const std::vector<std::string> run = {"run", shared_drive(), "--count", "1", "--out", folder / "out"};
+  const auto refused = [&](const std::vector<std::string>& frames, const std::vector<std::string>& parts) {
+    std::vector<std::string> command = run;
+    command.insert(command.end(), frames.begin(), frames.end());
+    rilo_fails(2, command, parts);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  };
+  refused({"--odom-frame", "map", "--lidar-frame", "/map"}, {"both map", "two frames"});
+  refused({"--lidar-frame", "odom"}, {"both odom"});
+  refused({"--odom-frame", ""}, {"--odom-frame", "the name of a frame"});
+}
+
 TEST(RunFlags, RawPointsWithoutTimesAreFoundOut) {
   const TempDir folder;
   const auto drive = folder / "drive";

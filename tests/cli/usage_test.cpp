@@ -26,6 +26,11 @@ TEST(Usage, AMissingValueIsNamedAsOne) {
   rilo_fails(2, {"run", "data", "--out"}, {"--out: its value is missing. See: rilo run --help"});
 }
 
+TEST(Usage, ControlCharactersOfNamesDoNotReachTheTerminal) {
+  const Outcome outcome = rilo_fails(3, {"info", "no\nsuch\x1b[31m drive"}, {"no\\nsuch\\x1b[31m drive"});
+  EXPECT_EQ(lines_of(outcome.err).size(), 1U) << outcome.err;
+}
+
 TEST(Usage, WrongCommandLinesEndWith2AndOneLine) {
   const std::vector<std::vector<std::string>> wrong = {
       {},

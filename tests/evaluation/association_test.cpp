@@ -56,6 +56,15 @@ TEST(MatchByStamp, SaysTheToleranceInSeconds) {
   }
 }
 
+TEST(MatchByStamp, OnePoseIsNoMatterOfClocks) {
+  try {
+    match_by_stamp(stamped({0}), stamped({0, 1}), 20'000'000);
+    FAIL() << "matched";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "at least two poses of each are needed, found 1 true and 2 estimated");
+  }
+}
+
 TEST(MatchByStamp, RefusesWhatCannotBeEvaluated) {
   EXPECT_THROW(match_by_stamp(stamped({0, 1}), stamped({0, 1}), -1), std::invalid_argument);
   EXPECT_THROW(match_by_stamp(stamped({}), stamped({0, 1}), 5), std::invalid_argument);

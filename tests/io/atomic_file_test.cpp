@@ -68,6 +68,24 @@ TEST(AtomicFileTest, ReplacesAndFollowsLinks) {
   EXPECT_EQ(slurp(folder / "real/target.txt"), "new");
 }
 
+TEST(AtomicFileTest, ALinkToNothingYetStaysALink) {
+  const TempDir folder;
+  fs::create_directory(folder / "real");
+  fs::create_symlink("real/new.txt", folder / "link.txt");
+  write_atomically(folder / "link.txt", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(slurp(folder / "real/new.txt"), "new");
+}
+
+TEST(AtomicFileTest, AReplacedFileKeepsItsPermissions) {
+  const TempDir folder;
+  const auto secret = folder.write("secret.txt", "old");
+  fs::permissions(secret, static_cast<fs::perms>(0600));
+  write_atomically(secret, "new");
+  EXPECT_EQ(slurp(secret), "new");
+  EXPECT_EQ(fs::status(secret).permissions(), static_cast<fs::perms>(0600));
+}
+
 TEST(AtomicFileTest, UsualPermissions) {
   const TempDir folder;
   const mode_t mask = ::umask(0027);

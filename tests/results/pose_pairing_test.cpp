@@ -12,8 +12,10 @@
 namespace rilo::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 PoseFile stamped_file(const std::vector<std::int64_t>& stamps_ms) {
@@ -72,6 +74,23 @@ TEST(PosePairing, ByIndexFromTheFirstOnWithAWarningWhereTheyAreNotAsMany) {
   EXPECT_THAT(places(paired(four, 1).poses.truth), ElementsAre(1, 2, 3, 4));
   EXPECT_THROW(paired(four, 4), RunError);
   EXPECT_THROW(pair_poses(truth, four, {Pairing::kStamp, 0.02, 0}), RunError);
+}
+
+TEST(PosePairing, TheIndexIsAdvisedWhereThereIsAnOptionAndEnoughPoses) {
+  const auto refusal = [](const PoseFile& estimate, bool advised) {
+    PairingOptions options;
+    options.index_advised = advised;
+    try {
+      pair_poses(stamped_file({0, 100, 200}), estimate, options);
+    } catch (const RunError& error) {
+      return std::string(error.what());
+    }
+    return std::string("paired");
+  };
+  const PoseFile other_clock = stamped_file({5000, 5100, 5200});
+  EXPECT_THAT(refusal(other_clock, true), HasSubstr("same clock, or take --associate index"));
+  EXPECT_THAT(refusal(other_clock, false), Not(HasSubstr("--associate")));
+  EXPECT_THAT(refusal(stamped_file({0}), true), AllOf(HasSubstr("at least two poses"), Not(HasSubstr("--associate"))));
 }
 
 TEST(PosePairing, TheFirstLineThatIsNoCommentShowsTheForm) {

@@ -121,6 +121,13 @@ TEST(SavedRun, SaysWhatIsMissing) {
   EXPECT_THAT(refusal(folder.path()), HasSubstr("neither metrics.json nor"));
 }
 
+TEST(SavedRun, NumbersOutOfRangeAreNamedWithTheirFile) {
+  const TempDir folder;
+  const auto file = folder.write("metrics.json", R"({"frames": 1e999})");
+  expect_io_error([&] { read_json_object(file, "metrics.json of rilo run", "Run rilo run again"); },
+                  {"metrics.json", "1e999", "Run rilo run again"});
+}
+
 TEST(Outputs, AFileThatCannotBeReadIsNotReplaced) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
   const TempDir folder;

@@ -49,6 +49,18 @@ TEST(SweepPoses, ByStampTheNearestWithinTheGap) {
   EXPECT_FALSE(at(-50 * kMs - 1));
 }
 
+TEST(SweepPoses, StampsThatAreFarApartDoNotWrapAround) {
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
+  PoseFile file = accelerating({0, 100, 200, 300, 400});
+  file.trajectory.resize(2);
+  file.trajectory[0].stamp_ns = kMin + 1;
+  file.trajectory[1].stamp_ns = kMin + 2;
+  EXPECT_FALSE(SweepPoses(file, {}).of({9, kMax, {}, {}}, 0.1));
+  file.trajectory[1].stamp_ns = kMax;
+  EXPECT_EQ(SweepPoses(file, {}).of({9, kMax - 5, {}, {}}, 0.1)->T.translation().y(), 1);
+}
+
 TEST(SweepPoses, ByIndexWithTheTimesOfTheSweeps) {
   const SweepPoses poses(accelerating({}), {});
   const auto at = [&](std::size_t index, std::optional<std::int64_t> before_ms, std::optional<std::int64_t> after_ms) {

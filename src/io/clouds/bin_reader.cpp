@@ -61,18 +61,19 @@ void check_size(const FileBytes& bytes, const std::string& fields, std::size_t c
                  "The file is cut off, or bin_fields does not fit it" + likely_columns(bytes.size)});
 }
 
-// A wrong column count or another number format shows in absurd coordinates.
+// A wrong column count or another number format shows in absurd coordinates. Infinite ones are no returns, as NaN.
 void check_plausible(const std::filesystem::path& file, const std::string& fields, const RawCloud& cloud) {
   constexpr float kFarthest = 1e6F;
   const auto absurd =
       static_cast<std::size_t>(std::count_if(cloud.points.begin(), cloud.points.end(), [](const Eigen::Vector3f& p) {
-        return p.cwiseAbs().maxCoeff() > kFarthest;
+        return p.allFinite() && p.cwiseAbs().maxCoeff() > kFarthest;
       }));
   if (absurd * 10 <= cloud.points.size()) return;
   throw IoError(
       {file, "",
        std::to_string(absurd) + " of " + std::to_string(cloud.points.size()) + " points are farther than 1000 km",
-       "float32 records of " + fields, "Set bin_fields (--bin-fields) to the columns that the file has"});
+       "float32 records of " + fields,
+       "Set bin_fields (--bin-fields) to the columns that the file has; convert it if its numbers are not float32"});
 }
 
 }  // namespace

@@ -66,7 +66,9 @@ std::optional<std::int64_t> parse_long_stamp(std::string_view text) {
   if (all_digits(text)) {
     if (text.size() == kNanosecondDigits) return parse_integer(text);
     const auto microseconds = text.size() == kMicrosecondDigits ? parse_integer(text) : std::nullopt;
-    return microseconds ? std::optional(*microseconds * 1000) : std::nullopt;
+    std::int64_t nanoseconds = 0;
+    if (!microseconds || __builtin_mul_overflow(*microseconds, 1000, &nanoseconds)) return std::nullopt;
+    return nanoseconds;
   }
   const std::size_t point = text.find('.');
   if (point == std::string_view::npos || point < kSecondDigits) return std::nullopt;

@@ -17,8 +17,19 @@ namespace rilo::detail {
 
 enum class OusterProfile : std::uint8_t { kLegacy, kRng15, kRng19, kRng19Dual };
 
+/// Of a sensor and of one of its starts; 0: unknown.
+struct OusterIdentity {
+  std::uint64_t serial = 0;
+  std::uint32_t start = 0;  ///< initialization_id: another one each time the sensor is set up
+
+  friend bool operator==(const OusterIdentity&, const OusterIdentity&) = default;
+};
+/// Of a packet, of any profile but LEGACY, which has none.
+OusterIdentity ouster_identity(std::string_view packet);
+
 struct OusterMetadata {
   std::string product;  ///< "OS-1-128", as far as known
+  OusterIdentity identity;
   OusterProfile profile = OusterProfile::kLegacy;
   std::size_t columns_per_frame = 1024;
   std::size_t columns_per_packet = 16;

@@ -24,6 +24,12 @@ Pixel pixel_at(std::string_view bytes, const OusterLayout& layout, std::size_t a
   return {range * layout.range_unit_mm * kMillimetres, static_cast<float>(reflectivity)};
 }
 
+std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
+  std::uint64_t value = 0;
+  for (std::size_t i = size; i-- > 0;) value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
 class OusterDecoder final : public PacketDecoder {
  public:
   explicit OusterDecoder(OusterMetadata metadata)
@@ -38,10 +44,14 @@ class OusterDecoder final : public PacketDecoder {
     return "Ouster" + product + ", " + to_string(metadata_.profile) + (dual ? ", the first of two returns" : "");
   }
   std::size_t clock_resets() const override { return clock_.resets(); }
-  bool accepts(std::string_view payload) const override { return payload.size() == packet_bytes_; }
+  bool accepts(std::string_view payload) const override {
+    return payload.size() == packet_bytes_ && !contradict(identity_of(payload).serial, metadata_.identity.serial);
+  }
 
   void take(std::string_view payload, std::int64_t received_ns, std::deque<DecodedSweep>& done) override {
     const std::size_t column_bytes = layout_.column_bytes(metadata_.pixels());
+    if (const auto start = identity_of(payload).start; contradict(start, metadata_.identity.start))
+      other_start_ = start;
     for (std::size_t i = 0; i < metadata_.columns_per_packet; ++i) {
       const std::string_view column = payload.substr(layout_.packet_header + i * column_bytes, column_bytes);
       const bool legacy = metadata_.profile == OusterProfile::kLegacy;
@@ -58,7 +68,20 @@ class OusterDecoder final : public PacketDecoder {
 
   void finish(std::deque<DecodedSweep>& done) override { end_frame(done); }
 
+  std::vector<std::string> warnings() const override {
+    if (other_start_ == 0) return {};
+    return {"the sensor was set up again between its metadata and the packets (initialization_id " +
+            std::to_string(metadata_.identity.start) + " and " + std::to_string(other_start_) +
+            "): where its mode was changed, the points are wrong"};
+  }
+
  private:
+  // Two that are known and differ.
+  static bool contradict(std::uint64_t a, std::uint64_t b) { return a != 0 && b != 0 && a != b; }
+  OusterIdentity identity_of(std::string_view payload) const {
+    return metadata_.profile == OusterProfile::kLegacy ? OusterIdentity{} : ouster_identity(payload);
+  }
+
   void begin_frame(std::uint16_t frame, std::deque<DecodedSweep>& done) {
     // Nothing has more columns than a frame: a counter that does not advance must not gather the whole recording.
     if (frame_ && *frame_ == frame && columns_ < metadata_.columns_per_frame) return;
@@ -104,10 +127,17 @@ class OusterDecoder final : public PacketDecoder {
   PacketClock clock_;
   GrowingSweep sweep_;
   std::optional<std::uint16_t> frame_;
-  std::size_t columns_ = 0;  // of the frame so far
+  std::size_t columns_ = 0;        // of the frame so far
+  std::uint32_t other_start_ = 0;  // of a packet, when it is not that of the metadata
 };
 
 }  // namespace
+
+OusterIdentity ouster_identity(std::string_view packet) {
+  constexpr std::size_t kHeader = 12;
+  if (packet.size() < kHeader) return {};
+  return {number_at(packet, 7, 5), static_cast<std::uint32_t>(number_at(packet, 4, 3))};
+}
 
 std::unique_ptr<PacketDecoder> ouster_decoder(OusterMetadata metadata) {
   return std::make_unique<OusterDecoder>(std::move(metadata));

@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -100,6 +101,12 @@ OusterProfile profile_of(const MetadataText& file) {
   file.reject("udp_profile_lidar", in_quotes(name) + " (known: " + known + ")");
 }
 
+OusterIdentity identity_of(const MetadataText& file) {
+  const double start = file.number("initialization_id").value_or(0);
+  const bool is_start = start >= 0 && start < std::ldexp(1, 24);
+  return {parse_unsigned(file.text("prod_sn")).value_or(0), is_start ? static_cast<std::uint32_t>(start) : 0};
+}
+
 // "1024x10": columns per revolution, revolutions per second.
 void read_mode(const MetadataText& file, OusterMetadata& metadata) {
   const std::string mode = file.text("lidar_mode");
@@ -157,6 +164,7 @@ OusterMetadata parse_ouster_metadata(std::string_view text, const std::filesyste
   const MetadataText file(text, path, part);
   OusterMetadata metadata;
   metadata.product = file.text("prod_line");
+  metadata.identity = identity_of(file);
   metadata.profile = profile_of(file);
   read_mode(file, metadata);
   read_window(file, metadata);

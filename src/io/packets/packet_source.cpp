@@ -82,6 +82,7 @@ class PacketSource final : public ScanSource {
     if (options_.point_times == PointTimes::kNone) info.point_times = "none";
     if (options_.point_times == PointTimes::kAzimuth) info.point_times = "azimuth";
     for (std::string& warning : stream_->warnings()) info.warnings.push_back(std::move(warning));
+    for (std::string& warning : decoder_->warnings()) info.warnings.push_back(std::move(warning));
     if (ended_ && ready_.empty()) add_counts(info);
     return info;
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "geometry/degrees.hpp"
+#include "io/file_bytes.hpp"
 #include "io/packets/velodyne.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
@@ -118,16 +120,19 @@ void read_velodyne_calibration(const std::filesystem::path& calibration, Velodyn
                    "a calibration of " + std::to_string(model.lasers.size()) + " lasers as velodyne_pointcloud has it",
                    "Make it from the sensor's db.xml with gen_calibration.py of velodyne_pointcloud"});
   };
+  const FileBytes bytes = read_file(calibration);
   try {
-    const YAML::Node root = YAML::LoadFile(calibration.string());
+    const YAML::Node root = YAML::Load(std::string(bytes.view()));
     const YAML::Node lasers = root["lasers"];
     if (!lasers || !lasers.IsSequence() || lasers.size() != model.lasers.size()) {
       reject(lasers && lasers.IsSequence() ? std::to_string(lasers.size()) + " lasers" : "no list of lasers");
     }
+    std::set<std::size_t> ids;
     if (root["distance_resolution"]) model.unit_m = root["distance_resolution"].as<double>();
     for (const YAML::Node& entry : lasers) {
       const auto id = entry["laser_id"].as<std::size_t>();
       if (id >= model.lasers.size()) reject("laser_id " + std::to_string(id));
+      if (!ids.insert(id).second) reject("laser_id " + std::to_string(id) + " twice");
       VelodyneLaser& laser = model.lasers[id];
       laser.elevation_rad = entry["vert_correction"].as<double>();
       laser.azimuth_rad = -number_of(entry, "rot_correction");

@@ -1,4 +1,5 @@
 // The packets in the messages of a recording.
+#include <optional>
 #include <utility>
 
 #include "io/packets/find_decoder.hpp"
@@ -6,6 +7,7 @@
 #include "io/ros/driver_messages.hpp"
 #include "io/ros/recording_source.hpp"
 #include "io/ros/scan_topic.hpp"
+#include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
@@ -66,16 +68,23 @@ class RecordedPackets final : public PacketStream {
   }
 
   std::string format() const override { return recording_->format(); }
-  std::string frame_id() const override { return frame_id_; }
+  std::string frame_id() const override { return frame_id_.value_or(""); }
   bool is_mixed() const override { return false; }
   std::vector<std::string> warnings() const override { return recording_->warnings(); }
 
  private:
+  void check_frame(const std::string& frame_id, const BytesOrigin& origin) {
+    if (!frame_id_) frame_id_ = frame_id;
+    if (frame_id != *frame_id_) {
+      reject_sensor(origin, "packets of frame " + in_quotes(frame_id), "frame " + in_quotes(*frame_id_));
+    }
+  }
+
   void unpack(const RecordedMessage& message) {
     const BytesOrigin origin{message.file, "message " + std::to_string(messages_) + " of " + topic_.name};
     if (scan_form(topic_) == ScanForm::kVelodynePackets) {
       VelodyneScan scan = parse_velodyne_scan(message.bytes, encoding_of(topic_), origin);
-      frame_id_ = std::move(scan.frame_id);
+      check_frame(scan.frame_id, origin);
       packets_ = std::move(scan.packets);
       for (RecordedPacket& packet : packets_) {
         if (packet.received_ns == 0) packet.received_ns = message.received_ns;
@@ -90,7 +99,7 @@ class RecordedPackets final : public PacketStream {
 
   std::unique_ptr<Recording> recording_;
   RecordedTopic topic_;
-  std::string frame_id_;
+  std::optional<std::string> frame_id_;  // of the first message
   std::vector<RecordedPacket> packets_;  // of the last message
   std::size_t next_packet_ = 0;
   std::size_t messages_ = 0;

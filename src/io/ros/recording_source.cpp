@@ -206,12 +206,9 @@ class RecordingSource final : public ScanSource {
     return cloud.sensor == sensor_;
   }
 
-  // The sweeps of one sensor do not fit the map of another.
   void check_sensor(const CloudMessage& cloud) {
     if (is_of_the_sensor(cloud)) return;
-    throw IoError({file_, current_part(), "points of " + cloud.sensor + " after some of " + sensor_,
-                   "one sensor in a topic",
-                   "Record each sensor on a topic of its own; where bad sweeps are skipped, the first one's are used"});
+    reject_sensor({file_, current_part()}, "points of " + cloud.sensor, sensor_);
   }
 
   // A sweep is late when it reached the recorder more than a period later than the promptest one.
@@ -250,6 +247,11 @@ std::string frame_of(Recording& recording, const RecordedTopic& topic) {
 }
 
 }  // namespace
+
+void reject_sensor(const BytesOrigin& origin, const std::string& found, const std::string& first) {
+  throw IoError({origin.file, origin.part, found + " after some of " + first, "one sensor in a topic",
+                 "Record each sensor on a topic of its own; where bad sweeps are skipped, the first one's are used"});
+}
 
 std::vector<TopicInfo> describe_topics(Recording& recording) {
   const std::vector<RecordedTopic> topics = recording.topics();

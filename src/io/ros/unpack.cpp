@@ -92,6 +92,11 @@ void unpack_zstd_file(const std::filesystem::path& packed, const std::filesystem
   const std::unique_ptr<ZSTD_DCtx, ZstdFree> context(ZSTD_createDCtx());
   std::vector<char> input;
   std::vector<char> output(ZSTD_DStreamOutSize());
+  const auto check_written = [&] {
+    if (stream) return;
+    throw IoError({to, "", "the unpacked " + packed.filename().string() + " cannot be written", "room for it",
+                   "Free space there, or set TMPDIR to a folder on a larger disk"});
+  };
   std::size_t wanted = 1;
   for (std::uint64_t place = 0; place < file.size(); place += kPiece) {
     file.read(place, static_cast<std::size_t>(std::min(kPiece, file.size() - place)), input);
@@ -102,15 +107,13 @@ void unpack_zstd_file(const std::filesystem::path& packed, const std::filesystem
       wanted = ZSTD_decompressStream(context.get(), &piece, &in);
       if (ZSTD_isError(wanted) != 0) fail(origin, "zstd", ZSTD_getErrorName(wanted));
       stream.write(output.data(), static_cast<std::streamsize>(piece.pos));
+      check_written();  // a recording may be a hundred times the room that is left
       full = piece.pos == piece.size && wanted != 0;
     }
   }
   if (wanted != 0) fail(origin, "zstd", "it ends too early");
   stream.close();
-  if (!stream) {
-    throw IoError({to, "", "the unpacked " + packed.filename().string() + " cannot be written", "room for it",
-                   "Free space there, or set TMPDIR to a folder on a larger disk"});
-  }
+  check_written();
 }
 
 }  // namespace rilo::detail

@@ -54,7 +54,13 @@ TEST(BinTest, OddSizes) {
 TEST(BinTest, AbsurdCoordinatesAreAWrongFormat) {
   const TempDir folder;
   const auto file = folder.write("a.bin", bytes_of<float>({1e30F, 0, 0, 0, 1, 1, 1, 1}));
-  expect_io_error([&] { read_bin(file); }, {"1 of 2 points", "bin_fields"});
+  expect_io_error([&] { read_bin(file); }, {"1 of 2 points", "bin_fields", "not float32"});
+}
+
+TEST(BinTest, InfiniteCoordinatesAreNoReturns) {
+  const TempDir folder;
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(read_bin(folder.write("a.bin", bytes_of<float>({kInf, kInf, -kInf, 0, 1, 1, 1, 1}))).points.size(), 2U);
 }
 
 TEST(BinTest, NanPointsAreKept) {

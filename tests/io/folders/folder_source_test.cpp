@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/folders/stamp_list.hpp"
 #include "io/io_test_util.hpp"
 #include "io/sweep_writer.hpp"
 #include "rilo/io/scan_source.hpp"
@@ -287,6 +288,11 @@ TEST(FolderSourceTest, SkipReadsNothing) {
     EXPECT_EQ(source->skip(9), 0U);
     EXPECT_FALSE(source->next());
   }
+}
+
+TEST(StampListTest, MicrosecondsThatDoNotFitAreNone) {
+  EXPECT_EQ(detail::parse_long_stamp("1700000000123456"), 1'700'000'000'123'456'000);
+  EXPECT_FALSE(detail::parse_long_stamp("9999999999999999"));
 }
 
 }  // namespace

@@ -91,6 +91,53 @@ TEST(OusterTest, OfSeveralMetadataTheOneOfItsName) {
   EXPECT_EQ(sweeps(), 1U);
 }
 
+TEST(OusterTest, MetadataOfAnotherSensorAreRefused) {
+  constexpr OusterIds kThis{122'201'000'998, 7'109'750};
+  constexpr OusterIds kOther{122'150'000'150, 5'431'292};
+  const TempDir folder;
+  const OusterShape& shape = kOusterShapes[2];
+  const auto file = folder.write("drive.pcap", ouster_drive(shape, 70, 65000, kThis).text());
+  folder.write("other.json", ouster_metadata(shape, kOther));
+  expect_io_error([&] { open_scan_source(file); },
+                  {"drive.pcap", "122201000998", "122150000150", "other.json", "--sensor-file"});
+  // Of several files that of the sensor, whatever they are called; then that of its start.
+  folder.write("a.json", ouster_metadata(shape, {kThis.serial, 1}));
+  const auto started_again = open_scan_source(file);
+  EXPECT_EQ(sweeps_of(*started_again).size(), 1U);
+  EXPECT_TRUE(has_warning(started_again->info(), "initialization_id 1 and 7109750"));
+  folder.write("b.json", ouster_metadata(shape, kThis));
+  const auto source = open_scan_source(file);
+  EXPECT_EQ(sweeps_of(*source).size(), 1U);
+  EXPECT_FALSE(has_warning(source->info(), "initialization_id"));
+}
+
+TEST(OusterTest, PacketsOfAnotherSensorAreNotMixedIn) {
+  constexpr OusterIds kThis{1'000'000'000'001, 0};
+  const TempDir folder;
+  const OusterShape& shape = kOusterShapes[1];
+  Capture both;
+  for (std::size_t i = 0; i < 130; ++i) {
+    const std::uint64_t ns = 5'000'000 + i * 1'562'500;
+    for (const OusterIds& ids : {OusterIds{7, 0}, kThis}) {
+      both.udp(kCaptureBegin + static_cast<std::int64_t>(ns), 7502,
+               ouster_packet(shape, static_cast<std::uint16_t>(i / 64 + ids.serial % 10), i % 64 * 16, ns, ids));
+    }
+  }
+  folder.write("o.json", ouster_metadata(shape, kThis));
+  const auto sweeps = sweeps_of(*open_scan_source(folder.write("o.pcap", both.text())));
+  ASSERT_EQ(sweeps.size(), 2U);
+  EXPECT_EQ(sweeps[0].points.size(), 1024U * 3);
+}
+
+TEST(OusterTest, DamagedMetadataAreNamedWithTheirReason) {
+  const TempDir folder;
+  const auto file = folder.write("o.pcap", ouster_drive(kOusterShapes[2], 70).text());
+  folder.write("cut.json", ouster_metadata(kOusterShapes[2]).substr(0, 200));
+  folder.write("empty.json", "{}");
+  expect_io_error([&] { open_scan_source(file); },
+                  {"o.pcap", "cut.json: text that is not a JSON object", "empty.json: lidar_mode: no such key"});
+}
+
 TEST(OusterTest, MetadataTurnedOver) {
   std::mt19937 random(4);
   const TempDir folder;

@@ -86,8 +86,15 @@ struct OusterShape {
   bool legacy;
 };
 
-inline std::string ouster_metadata(const OusterShape& shape) {
-  return R"({"lidar_mode": "1024x10", "prod_line": "OS-1-4", "beam_altitude_angles": [10, 0, -10, -20],
+// Zeros: not known.
+struct OusterIds {
+  std::uint64_t serial = 0;
+  std::uint32_t start = 0;
+};
+
+inline std::string ouster_metadata(const OusterShape& shape, const OusterIds& ids = {}) {
+  return R"({"prod_sn": ")" + std::to_string(ids.serial) + R"(", "initialization_id": )" + std::to_string(ids.start) +
+         R"(, "lidar_mode": "1024x10", "prod_line": "OS-1-4", "beam_altitude_angles": [10, 0, -10, -20],
             "beam_azimuth_angles": [0, 1, 0, -1], "lidar_origin_to_beam_origin_mm": 15.0,
             "data_format": {"columns_per_frame": 1024, "columns_per_packet": 16, "pixels_per_column": 4,
                             "udp_profile_lidar": ")" +
@@ -103,9 +110,12 @@ inline std::string ouster_pixel(const OusterShape& shape, std::uint32_t range_mm
 }
 
 inline std::string ouster_packet(const OusterShape& shape, std::uint16_t frame, std::size_t first_column,
-                                 std::uint64_t ns) {
+                                 std::uint64_t ns, const OusterIds& ids = {}) {
   Bytes bytes;
-  if (!shape.legacy) bytes.put(std::uint16_t{1}).put(frame).raw(std::string(28, '\0'));
+  if (!shape.legacy) {
+    bytes.put(std::uint16_t{1}).put(frame).put(ids.serial << 24U | ids.start);
+    bytes.raw(std::string(20, '\0'));
+  }
   for (std::size_t i = 0; i < 16; ++i) {
     const auto column = static_cast<std::uint16_t>(first_column + i);
     bytes.put(ns + i * 97'656).put(column);
@@ -142,12 +152,13 @@ inline Capture velodyne_drive(std::uint8_t product, double turns, int azimuth = 
 }
 
 // 64 packets a turn, with packets of the IMU in between.
-inline Capture ouster_drive(const OusterShape& shape, std::size_t packets, std::size_t mtu = 65000) {
+inline Capture ouster_drive(const OusterShape& shape, std::size_t packets, std::size_t mtu = 65000,
+                            const OusterIds& ids = {}) {
   Capture capture;
   for (std::size_t i = 0; i < packets; ++i) {
     const std::uint64_t ns = 5'000'000 + i * 1'562'500;
     capture.udp(kCaptureBegin + static_cast<std::int64_t>(ns), 7502,
-                ouster_packet(shape, static_cast<std::uint16_t>(65535 + i / 64), i % 64 * 16, ns), mtu);
+                ouster_packet(shape, static_cast<std::uint16_t>(65535 + i / 64), i % 64 * 16, ns, ids), mtu);
     capture.udp(kCaptureBegin + static_cast<std::int64_t>(ns), 7503, std::string(48, 'i'));
   }
   return capture;

@@ -150,6 +150,9 @@ TEST(VelodyneModelTest, AnyMayHaveACalibration) {
   }
   const auto beyond = folder.write("beyond.yaml", calibration_of(16, 16));
   expect_io_error([&] { model_of(0x22, beyond); }, {"beyond.yaml", "laser_id 16"});
+  const auto twice = folder.write("twice.yaml", calibration_of(16, 3));
+  expect_io_error([&] { model_of(0x22, twice); }, {"twice.yaml", "laser_id 3 twice"});
+  expect_io_error([&] { model_of(0x22, folder / "none.yaml"); }, {"none.yaml", "No such file"});
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // Recordings that are cut off, damaged, or made to harm.
+#include <random>
 #include <sqlite3.h>
 
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
+#include "io/ros/unpack.hpp"
 
 namespace rilo::test {
 namespace {
@@ -165,6 +167,17 @@ TEST(DamagedRecordingTest, AnnouncedSizesAreNotBelieved) {
   for (std::size_t i = 0; i < 7; ++i) bytes[chunk + 9 + 16 + i] = '\x7F';
   const auto source = open_scan_source(folder.write("big.mcap", bytes));
   expect_io_error([&] { source->next(); }, {"big.mcap", "bytes unpacked"});
+}
+
+// Before the whole file was unpacked: the lack of room is found, and not the end that is missing.
+TEST(UnpackTest, AFullDiskEndsItAtOnce) {
+  const TempDir folder;
+  std::mt19937 random(5);
+  std::string bytes(1'000'000, '\0');
+  for (char& byte : bytes) byte = static_cast<char>(random());
+  const std::string packed = zstd_of(bytes);
+  const auto file = folder.write("big.db3.zstd", packed.substr(0, packed.size() - 9));
+  expect_io_error([&] { detail::unpack_zstd_file(file, "/dev/full"); }, {"/dev/full", "big.db3.zstd", "TMPDIR"});
 }
 
 }  // namespace

@@ -59,6 +59,24 @@ TEST(VelodyneScanTest, TheSweepsOfACaptureInEveryContainer) {
   }
 }
 
+TEST(VelodyneScanTest, AMessageOfAnotherFrameIsAnError) {
+  const TempDir folder;
+  const std::string usual = "velodyne";
+  std::vector<Recorded> messages = velodyne_scans(false);
+  std::string& last = messages.back().bytes;
+  last.replace(last.find(usual), usual.size(), "velodyn2");
+  const auto file = folder.write(
+      "two.mcap", mcap_bytes({{"/velodyne_packets", "velodyne_msgs/msg/VelodyneScan"}}, messages, {"zstd", 2, true}));
+  expect_io_error([&] { sweeps_of(*open_scan_source(file)); },
+                  {"message 5 of /velodyne_packets", "'velodyn2'", "'velodyne'", "one sensor in a topic"});
+  SourceOptions options;
+  options.on_bad_sweep = OnBadSweep::kSkip;
+  const auto source = open_scan_source(file, options);
+  EXPECT_GE(sweeps_of(*source).size(), 3U);
+  EXPECT_EQ(source->info().frame_id, usual);
+  EXPECT_EQ(source->info().bad_sweeps, 1U);
+}
+
 // --- Ouster -------------------------------------------------------------------------------------------------------
 
 std::string text_message(bool ros1, const std::string& text) { return finished(Bytes(!ros1).string(text), ros1); }

@@ -49,7 +49,8 @@ constexpr const char* kQualityFooter =
 times are motion-compensated with the velocity between the neighbouring poses (--point-times none: they are already).
 Smaller is sharper. Compare trajectories on the same sweeps with the same options; below about 1 % it is noise. Wrong
 poses lose planes, the thick ones first: distances to the planes compare at about equal shares of planar places only,
-the mean over all places does not gain by a lost one.
+the mean over all places does not gain by a lost one. A path that is too short draws sweeps together: where many more
+places have enough neighbours, that is no merit.
 
 Examples:
   rilo quality kitti/sequences/00 results/00/poses_lidar.txt

@@ -34,7 +34,7 @@ struct MapQualityConfig {
 /// Smaller is sharper. Differences below about 1 % are noise of the choice of places.
 /// Wrong poses lose planes, the thick ones first: what is left can be thinner than the right poses' planes. So the
 /// figures of the planar places are compared at about equal planar_share only; bounded_rms_m does not gain by a lost
-/// plane.
+/// plane. All of them gain by a path that is too short where most is open ground: `places` then differ, too.
 struct MapQuality {
   std::size_t sweeps = 0;
   std::size_t windows = 0;

@@ -165,6 +165,11 @@ class LiveOdometry::Impl {
       session_.set_extrinsic(*T);
     }
     base_frame_ = base;
+    if (!options.base_to_lidar.empty() && base == lidar_frame) {
+      output_.warn(
+          "base_frame is the messages' own frame, " + base +
+          ": base_to_lidar moves all poses and maps within it; leave it out, or set base_frame to the robot's");
+    }
     if (base.empty() || base == options.odom_frame) {
       output_.warn(base.empty() ? "the messages name no frame: nothing on /tf without base_frame and base_to_lidar"
                                 : "the messages' frame is " + base + ", as odom_frame: nothing on /tf; set either");

@@ -54,7 +54,8 @@ function(rilo_install_library component target)
     COMPONENT dev)
   rilo_dependencies_of(${target} packages components)
   string(APPEND RILO_CONFIG_TABLE
-    "set(_rilo_${component}_packages \"${packages}\")\nset(_rilo_${component}_components \"${components}\")\n")
+    "set(_rilo_${component}_packages \"${packages}\")\nset(_rilo_${component}_components \"${components}\")\n"
+    "set(_rilo_${component}_required \"\${rilo_FIND_REQUIRED_${component}}\")\n")
   set(RILO_CONFIG_TABLE "${RILO_CONFIG_TABLE}" PARENT_SCOPE)
 endfunction()
 

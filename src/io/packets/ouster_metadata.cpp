@@ -100,7 +100,7 @@ OusterProfile profile_of(const MetadataText& file) {
   file.reject("udp_profile_lidar", in_quotes(name) + " (known: " + known + ")");
 }
 
-// "1024x10": columns per revolution, revolutions per second.
+// "1024x10": columns per revolution; the revolutions per second are those of the packets' times.
 void read_mode(const MetadataText& file, OusterMetadata& metadata) {
   const std::string mode = file.text("lidar_mode");
   unsigned columns = 0;
@@ -111,7 +111,6 @@ void read_mode(const MetadataText& file, OusterMetadata& metadata) {
   }
   metadata.columns_per_frame = file.count("columns_per_frame", columns, 8192);
   metadata.columns_sent = metadata.columns_per_frame;
-  metadata.rate_hz = rate;
 }
 
 // The first and the last column that are sent; the window may lie across the end of the revolution.

@@ -54,16 +54,22 @@ function(rilo_install_library component target)
     COMPONENT dev)
   rilo_dependencies_of(${target} packages components)
   string(APPEND RILO_CONFIG_TABLE
-    "set(_rilo_${component}_packages \"${packages}\")\nset(_rilo_${component}_components \"${components}\")\n")
+    "set(_rilo_${component}_packages \"${packages}\")\nset(_rilo_${component}_components \"${components}\")\n"
+    "set(_rilo_${component}_required \"\${rilo_FIND_REQUIRED_${component}}\")\n")
   set(RILO_CONFIG_TABLE "${RILO_CONFIG_TABLE}" PARENT_SCOPE)
 endfunction()
 
 set(RILO_CONFIG_TABLE "")
 get_property(RILO_COMPONENTS GLOBAL PROPERTY RILO_COMPONENTS)
-set_target_properties(rilo PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+# What docs/abi.md promises: below 1.0 every minor version may break binaries.
+set(RILO_SOVERSION ${PROJECT_VERSION_MAJOR})
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(RILO_SOVERSION 0.${PROJECT_VERSION_MINOR})
+endif()
+set_target_properties(rilo PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${RILO_SOVERSION})
 rilo_install_library(core rilo)
 foreach(component IN LISTS RILO_COMPONENTS)
-  set_target_properties(rilo_${component} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  set_target_properties(rilo_${component} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${RILO_SOVERSION})
   rilo_install_library(${component} rilo_${component})
 endforeach()
 

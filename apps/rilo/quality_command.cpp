@@ -47,7 +47,10 @@ constexpr const char* kQualityFooter =
     R"(DATA as for rilo run, read with the same options. POSES: of the LiDAR, KITTI form (12 numbers a line) or TUM form
 (t x y z qx qy qz qw), detected from the first line; at the middle of the sweep, as rilo's are. Sweeps with per-point
 times are motion-compensated with the velocity between the neighbouring poses (--point-times none: they are already).
-Smaller is sharper. Compare trajectories on the same sweeps with the same options; below about 1 % it is noise.
+Smaller is sharper. Compare trajectories on the same sweeps with the same options; below about 1 % it is noise. Wrong
+poses lose planes, the thick ones first: distances to the planes compare at about equal shares of planar places only,
+the mean over all places does not gain by a lost one. A path that is too short draws sweeps together: where many more
+places have enough neighbours, that is no merit.
 
 Examples:
   rilo quality kitti/sequences/00 results/00/poses_lidar.txt
@@ -121,8 +124,12 @@ nlohmann::json quality_json(const QualityFlags& flags, const QualityRun& run) {
           {"warnings", run.source.warnings},
           {"sweeps", q.sweeps},
           {"windows", q.windows},
+          {"samples", q.samples},
           {"places", q.places},
           {"planar_places", q.plane_rms_m.count},
+          {"planar_share", q.planar_share},
+          {"bounded_rms_m", q.bounded_rms_m},
+          {"no_plane_m", no_plane_m(c)},
           {"plane_rms_m", {{"median", q.plane_rms_m.median}, {"mean", q.plane_rms_m.mean}, {"p75", q.plane_rms_p75_m}}},
           {"mean_map_entropy", q.mean_map_entropy.value_or(0)},
           {"window_sweeps", c.window_sweeps},
@@ -139,13 +146,17 @@ nlohmann::json quality_json(const QualityFlags& flags, const QualityRun& run) {
 std::string quality_table(const QualityFlags& flags, const QualityRun& run) {
   const MapQuality& q = run.quality;
   std::string text = fmt::format("{} with {}\n{}\n", valid_utf8(flags.data), valid_utf8(flags.poses), run.protocol);
-  text += fmt::format("{} of {}, {}, {} of them planar; points from {} to {} m, neighbours within {} m\n",
-                      counted(q.windows, "window"), counted(flags.config.window_sweeps, "sweep"),
-                      counted(q.places, "place"), q.plane_rms_m.count, flags.config.min_range_m,
-                      flags.config.max_range_m, flags.config.radius_m);
+  text += fmt::format(
+      "{} of {}, {} looked at, {} with enough neighbours; points from {} to {} m, neighbours within {} m\n",
+      counted(q.windows, "window"), counted(flags.config.window_sweeps, "sweep"), counted(q.samples, "place"), q.places,
+      flags.config.min_range_m, flags.config.max_range_m, flags.config.radius_m);
+  text += fmt::format("{:<34} {:.2f} % ({})\n", "Planar places", 100 * q.planar_share, q.plane_rms_m.count);
   text += fmt::format("{:<34} median {:.3f}  mean {:.3f}  75 % {:.3f} mm\n", "RMS distance to the local plane",
                       kMillimetres * q.plane_rms_m.median, kMillimetres * q.plane_rms_m.mean,
                       kMillimetres * q.plane_rms_p75_m);
+  text += fmt::format("{:<34} {:.3f} mm\n",
+                      fmt::format("All places, no plane as {:.0f} mm", kMillimetres * no_plane_m(flags.config)),
+                      kMillimetres * q.bounded_rms_m);
   return text + fmt::format("{:<34} {:.4f}\n", "Mean map entropy", q.mean_map_entropy.value_or(0));
 }
 

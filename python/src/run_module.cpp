@@ -69,10 +69,11 @@ class PythonObserver final : public SessionObserver {
   std::optional<std::size_t> total_;
 };
 
-/// Whether a signal (Ctrl-C) arrived; its exception is set then.
+/// Whether a signal (Ctrl-C) arrived; its exception is set then. Python reports a signal once, and who asked may have
+/// gone on without telling.
 bool signal_arrived() {
   const py::gil_scoped_acquire lock;
-  return PyErr_CheckSignals() != 0;
+  return PyErr_Occurred() != nullptr || PyErr_CheckSignals() != 0;
 }
 
 PythonRun run(const std::filesystem::path& source, const SourceOptions& source_options, const py::object& config,

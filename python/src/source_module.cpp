@@ -186,7 +186,7 @@ void add_sources(py::module_& module) {
           "bin, pcd, ply, mcap, ROS 1 bag, ...")
       .def_property_readonly(
           "period_s", [](const PythonSource& source) { return source.info().period_s; },
-          "Median distance of the stamps, s; 1 / rate without stamps.")
+          "Mean step of the stamps, s, without those that differ by half from their median; 1 / rate without stamps.")
       .def_property_readonly(
           "point_times", [](const PythonSource& source) { return source.info().point_times; },
           "Where the per-point times come from, with unit and reference; known after the first sweep.")

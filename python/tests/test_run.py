@@ -2,6 +2,7 @@
 
 import copy
 import os
+import shutil
 import signal
 
 import numpy as np
@@ -173,3 +174,19 @@ def test_ctrl_c_ends_the_run(recording):
     finally:
         signal.signal(signal.SIGINT, before)
     assert seen[-1] in (2, 3)
+
+
+# Whether points without times are raw is tried before the first sweep.
+def test_ctrl_c_during_the_trial_ends_the_run(tmp_path, recording):
+    untimed = tmp_path / "untimed"
+    shutil.copytree(recording, untimed, ignore=shutil.ignore_patterns("times_pt"))
+    seen = []
+    before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            signal.setitimer(signal.ITIMER_REAL, 0.02)
+            rilo.run(untimed, on_sweep=lambda *now: seen.append(now))
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert seen == []

@@ -144,6 +144,9 @@ std::size_t workers_for(int threads) {
 
 }  // namespace
 
+// Evenly filled, the disc has a standard deviation of half its radius along each axis.
+double no_plane_m(const MapQualityConfig& config) { return std::sqrt(config.max_planar_ratio) * config.radius_m / 2; }
+
 MapQualityMeter::MapQualityMeter(const MapQualityConfig& config)
     : config_(config), window_step_(std::max<std::size_t>(1, config.window_sweeps / 2)) {
   check(config_);
@@ -219,6 +222,7 @@ void MapQualityMeter::measure(std::size_t first) {
   arena.execute([&] {
     for_each_index(places.size(), [&](std::size_t i) { places[i] = look_at(map, tree, map.points[i], config_); });
   });
+  samples_ += places.size();
   for (const Place& place : places) {
     if (place.counts) entropies_.push_back(place.entropy);
     if (place.planar) plane_rms_m_.push_back(place.plane_rms_m);
@@ -229,11 +233,19 @@ MapQuality MapQualityMeter::result() const {
   MapQuality quality;
   quality.sweeps = sweeps_;
   quality.windows = windows_;
+  quality.samples = samples_;
   quality.places = entropies_.size();
   quality.plane_rms_m = summarise(plane_rms_m_);
   std::vector<double> sorted = plane_rms_m_;
   std::sort(sorted.begin(), sorted.end());
   quality.plane_rms_p75_m = percentile(sorted, 0.75);
+  if (samples_ > 0) {
+    const double none_m = no_plane_m(config_);
+    double sum = none_m * static_cast<double>(samples_ - sorted.size());
+    for (const double rms_m : sorted) sum += std::min(rms_m, none_m);
+    quality.bounded_rms_m = sum / static_cast<double>(samples_);
+    quality.planar_share = static_cast<double>(sorted.size()) / static_cast<double>(samples_);
+  }
   if (!entropies_.empty()) quality.mean_map_entropy = summarise(entropies_).mean;
   return quality;
 }

@@ -140,10 +140,16 @@ class LiveOdometry::Impl {
     dropped_told_ = dropped;
   }
 
+  NodeOptions held_options() const {
+    const std::lock_guard lock(mutex_);
+    return options_;
+  }
+
   // Waits until it is known. False when the node ends before.
   bool find_extrinsic(const std::string& lidar_frame) {
-    const std::string base = options_.base_frame.empty() ? lidar_frame : options_.base_frame;
-    if (options_.base_to_lidar.empty() && base != lidar_frame) {
+    const NodeOptions options = held_options();
+    const std::string base = options.base_frame.empty() ? lidar_frame : options.base_frame;
+    if (options.base_to_lidar.empty() && base != lidar_frame) {
       const std::string lidar = lidar_frame.empty() ? "the messages' frame, which they do not name" : lidar_frame;
       const std::string wanted = "the transform " + base + " to " + lidar;
       health.note_waiting(wanted + " in TF (or the parameter base_to_lidar)");
@@ -159,7 +165,12 @@ class LiveOdometry::Impl {
       session_.set_extrinsic(*T);
     }
     base_frame_ = base;
-    if (base.empty() || base == options_.odom_frame) {
+    if (!options.base_to_lidar.empty() && base == lidar_frame) {
+      output_.warn(
+          "base_frame is the messages' own frame, " + base +
+          ": base_to_lidar moves all poses and maps within it; leave it out, or set base_frame to the robot's");
+    }
+    if (base.empty() || base == options.odom_frame) {
       output_.warn(base.empty() ? "the messages name no frame: nothing on /tf without base_frame and base_to_lidar"
                                 : "the messages' frame is " + base + ", as odom_frame: nothing on /tf; set either");
     }
@@ -211,7 +222,7 @@ class LiveOdometry::Impl {
   NodeOutput& output_;
 
   mutable std::mutex mutex_;  // for the session (all but next_sweep()) and what follows
-  NodeOptions options_;       // frames do not change: the thread reads them without it
+  NodeOptions options_;
   OdometrySession session_;
   bool config_changed_ = false;
   std::int64_t last_stamp_ns_ = 0;

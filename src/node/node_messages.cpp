@@ -1,7 +1,6 @@
 #include "rilo/node/node_messages.hpp"
 
 #include <cstring>
-#include <limits>
 
 #include "io/ros/ros_values.hpp"
 #include "io/unit_quaternion.hpp"
@@ -20,8 +19,7 @@ std::array<double, 36> rows_of(const Matrix6d& matrix) {
 }  // namespace
 
 NodeStamp node_stamp(std::int64_t stamp_ns) {
-  constexpr std::uint32_t kLastSecond = std::numeric_limits<std::int32_t>::max();
-  const detail::MessageStamp stamp = detail::message_stamp(stamp_ns, 0, kLastSecond);
+  const detail::MessageStamp stamp = detail::message_stamp(stamp_ns, 0, detail::kLastRos2Second);
   return {stamp.seconds, stamp.nanoseconds};
 }
 

@@ -192,7 +192,10 @@ NodeOptions with_parameters(const NodeOptions& options, const std::map<std::stri
   changed.base_frame = frame_name(changed.base_frame);
   if (changed.odom_frame.empty()) refuse("odom_frame", "the name of a frame");
   if (changed.base_frame == changed.odom_frame) refuse("base_frame", "another frame than odom_frame");
-  if (!changed.base_to_lidar.empty()) pose_from_list(changed.base_to_lidar);
+  if (!changed.base_to_lidar.empty()) {
+    pose_from_list(changed.base_to_lidar);
+    if (changed.base_frame.empty()) refuse("base_frame", "the robot's frame, on which base_to_lidar places the LiDAR");
+  }
   validate(changed.config);
   return changed;
 }

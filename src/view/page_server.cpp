@@ -50,7 +50,10 @@ void add_policy(Response& response) {
 /// One HTTP connection, until it ends or becomes a WebSocket.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(tcp::socket socket, Hub& hub) : stream_(std::move(socket)), hub_(hub) {}
+  HttpConnection(tcp::socket socket, Hub& hub) : stream_(std::move(socket)), hub_(hub) { ++hub_.connections; }
+  ~HttpConnection() { --hub_.connections; }
+  HttpConnection(const HttpConnection&) = delete;
+  HttpConnection& operator=(const HttpConnection&) = delete;
 
   void read() {
     parser_.emplace();
@@ -96,7 +99,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (!hub_.access.token_allowed(target)) return say(http::status::forbidden, "The token is wrong.");
     if (hub_.clients >= kMaxClients) return say(http::status::service_unavailable, "Too many viewers.");
     auto socket = std::make_shared<PageSocket>(std::move(stream_), hub_);
-    hub_.sockets.push_back(socket);
+    hub_.add(socket);
     socket->start(PageSocket::Request(parser_->get()));
   }
 
@@ -159,7 +162,8 @@ void PageServer::accept() {
   acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted || !acceptor_.is_open()) return;
     if (error) return pause();
-    std::make_shared<HttpConnection>(std::move(socket), hub_)->read();
+    // Beyond, it is closed at once: the run needs file descriptors, too.
+    if (hub_.connections < kMaxConnections) std::make_shared<HttpConnection>(std::move(socket), hub_)->read();
     accept();
   });
 }

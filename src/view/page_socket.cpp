@@ -15,8 +15,12 @@ constexpr int kSendBufferBytes = 1 << 19;  // what waits in the system is old wh
 
 }  // namespace
 
+void Hub::add(const std::shared_ptr<PageSocket>& socket) {
+  std::erase_if(sockets, [](const auto& known) { return known.expired(); });
+  sockets.push_back(socket);
+}
+
 void Hub::wake() {
-  std::erase_if(sockets, [](const auto& socket) { return socket.expired(); });
   for (const auto& socket : sockets) {
     if (const auto alive = socket.lock()) alive->pump();
   }

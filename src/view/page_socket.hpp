@@ -23,6 +23,8 @@ struct Hub {
   Hub(const ViewInfo& what, const ViewOptions& how, bool loopback)
       : info(what), options(how), access(loopback), history(what, how) {}
 
+  void add(const std::shared_ptr<PageSocket>& socket);
+
   /// Something new is there to be sent.
   void wake();
 
@@ -35,9 +37,11 @@ struct Hub {
   ViewHistory history;
   std::vector<std::weak_ptr<PageSocket>> sockets;
   std::atomic<std::size_t> clients = 0;
+  std::size_t connections = 0;  // those of plain HTTP
 };
 
 inline constexpr std::size_t kMaxClients = 8;
+inline constexpr std::size_t kMaxConnections = 64;  // a browser opens six
 
 /// Has no queue: it knows how far its page has got and picks the next frame when the last one has left. A page that
 /// reads slowly misses sweeps in between, one that does not read is closed when it does not answer pings either.

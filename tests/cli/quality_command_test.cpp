@@ -60,10 +60,15 @@ TEST(QualityCommand, TruePosesAreSharp) {
   EXPECT_EQ(truth["windows"], 1);
   EXPECT_GT(truth["planar_places"], 300);
   EXPECT_GE(truth["places"], truth["planar_places"]);
+  EXPECT_GE(truth["samples"], truth["places"]);
+  EXPECT_NEAR(truth["planar_share"].get<double>(),
+              truth["planar_places"].get<double>() / truth["samples"].get<double>(), 1e-12);
+  EXPECT_LT(truth["bounded_rms_m"], truth["no_plane_m"]);
   EXPECT_LT(rms(truth), 0.03);
   EXPECT_LE(rms(truth), truth["plane_rms_m"]["p75"].get<double>());
   const json wrong = quality(shared_drive(), folder.write("shaken.txt", shaken_poses(0.05)));
   EXPECT_GT(rms(wrong), 1.1 * rms(truth));
+  EXPECT_GT(wrong["bounded_rms_m"], truth["bounded_rms_m"]);
   EXPECT_GT(wrong["mean_map_entropy"], truth["mean_map_entropy"]);
 }
 
@@ -157,7 +162,8 @@ TEST(QualityCommand, TextForPeople) {
   std::vector<std::string> words = arguments(shared_drive(), true_poses());
   std::erase(words, "--json");
   const Outcome outcome = rilo_succeeds(words);
-  expect_parts(outcome.out, {"1 window of 10 sweeps", "median", "mm", "Mean map entropy"});
+  expect_parts(outcome.out,
+               {"1 window of 10 sweeps", "Planar places", "median", "mm", "All places", "Mean map entropy"});
   EXPECT_EQ(outcome.err, "");
 }
 

@@ -35,6 +35,7 @@ TEST(MapQuality, NothingToSee) {
     EXPECT_EQ(quality.places, 0U);
     EXPECT_EQ(quality.plane_rms_m.count, 0U);
     EXPECT_EQ(quality.plane_rms_p75_m, 0);
+    EXPECT_EQ(quality.planar_share, 0);
     EXPECT_FALSE(quality.mean_map_entropy.has_value());
   }
   const MapQuality none = map_quality({}, {});

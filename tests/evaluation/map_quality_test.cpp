@@ -21,7 +21,9 @@ MapQualityConfig every_sweep(std::size_t window) {
 }
 
 void expect_same(const MapQuality& a, const MapQuality& b) {
+  EXPECT_EQ(a.samples, b.samples);
   EXPECT_EQ(a.places, b.places);
+  EXPECT_EQ(a.bounded_rms_m, b.bounded_rms_m);
   EXPECT_EQ(a.plane_rms_m.median, b.plane_rms_m.median);
   EXPECT_EQ(a.plane_rms_m.mean, b.plane_rms_m.mean);
   EXPECT_EQ(a.plane_rms_p75_m, b.plane_rms_p75_m);
@@ -54,6 +56,9 @@ TEST(MapQuality, IslandsByHand) {
   EXPECT_EQ(quality.windows, 1U);
   EXPECT_EQ(quality.places, 20U);
   EXPECT_EQ(quality.plane_rms_m.count, 20U);
+  EXPECT_EQ(quality.samples, 20U);
+  EXPECT_EQ(quality.planar_share, 1);
+  EXPECT_NEAR(quality.bounded_rms_m, kD, 1e-14);
   EXPECT_NEAR(quality.plane_rms_m.median, kD, 1e-14);
   EXPECT_NEAR(quality.plane_rms_m.mean, kD, 1e-14);
   EXPECT_NEAR(quality.plane_rms_p75_m, kD, 1e-14);
@@ -115,8 +120,40 @@ TEST(MapQuality, WhatIsJustEnoughCounts) {
 TEST(MapQuality, AStickIsNoPlane) {
   const Drive drive = discs({1.0 / 64}, 1.0 / 8);
   const MapQuality quality = map_quality(drive.sweeps, drive.poses, every_sweep(9));
+  EXPECT_EQ(quality.samples, 1U);
   EXPECT_EQ(quality.places, 1U);
   EXPECT_EQ(quality.plane_rms_m.count, 0U);
+  EXPECT_EQ(quality.planar_share, 0);
+  EXPECT_NEAR(quality.bounded_rms_m, std::sqrt(0.1) * 0.3 / 2, 1e-12);
+}
+
+// A smooth floor and a rough wall ahead, 0.1 m nearer with every sweep. Where the length of the way is wrong the wall
+// is there several times, no longer planar, and only the floor is left to be measured.
+TEST(MapQuality, PosesThatLoseTheThickPlanesAreNotBetter) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> across(-1, 1);
+  std::normal_distribution<double> noise;
+  Drive drive;
+  drive.poses = straight_line(30, 0.1);
+  for (const SE3& T : drive.poses) {
+    Points sweep;
+    for (int k = 0; k < 4000; ++k) {
+      const Eigen::Vector3d p =
+          k % 4 == 0 ? Eigen::Vector3d(10 + across(random), across(random), -1.5 + 0.01 * noise(random))
+                     : Eigen::Vector3d(15 + 0.03 * noise(random), 2 * across(random), 2 + across(random));
+      sweep.push_back((T.inverse() * p).cast<float>());
+    }
+    drive.sweeps.push_back(sweep);
+  }
+  const MapQuality right = map_quality(drive.sweeps, drive.poses);
+  EXPECT_EQ(right.samples, 3000U);
+  EXPECT_GT(right.planar_share, 0.9);
+  for (const double scale : {0.7, 0.9, 1.2}) {
+    const MapQuality wrong = map_quality(drive.sweeps, straight_line(30, scale * 0.1));
+    EXPECT_LT(wrong.plane_rms_m.median, right.plane_rms_m.median) << scale;
+    EXPECT_LT(wrong.planar_share, 0.5 * right.planar_share) << scale;
+    EXPECT_GT(wrong.bounded_rms_m, 1.1 * right.bounded_rms_m) << scale;
+  }
 }
 
 // The second of two windows begins with the fifth sweep.
@@ -161,6 +198,7 @@ TEST(MapQuality, WrongPosesAreWorse) {
     const MapQuality after = map_quality(drive.sweeps, wrong);
     EXPECT_GT(after.plane_rms_m.median, before.plane_rms_m.median) << error;
     EXPECT_GT(after.plane_rms_m.mean, before.plane_rms_m.mean) << error;
+    EXPECT_GT(after.bounded_rms_m, before.bounded_rms_m) << error;
     EXPECT_GT(after.mean_map_entropy.value(), before.mean_map_entropy.value()) << error;
     before = after;
   }

@@ -258,6 +258,24 @@ TEST_F(RunningNode, KeysOfTheConfigurationCountFromTheNextResetOn) {
   EXPECT_EQ(odometry.path().poses.size(), 3U);
 }
 
+// The thread reads the frames while others change what may be changed: a thread sanitizer sees it.
+TEST(LiveOdometry, ParametersMayChangeWhileTheFramesAreRead) {
+  Output output;
+  NodeOptions options = at_once();
+  options.odom_frame = "a name that is longer than a string holds in place";
+  LiveOdometry odometry(options, "/points", output);
+  odometry.start();
+  odometry.push(message(0));
+  bool inverted = false;
+  while (!output.has_poses(1)) {
+    inverted = !inverted;
+    odometry.set_parameters({{"invert_tf", inverted}});
+  }
+  odometry.stop();
+  EXPECT_EQ(output.odometry[0].frame, options.odom_frame);
+  EXPECT_TRUE(output.warnings.empty());
+}
+
 TEST_F(RunningNode, AJumpBackInTimeStartsAnew) {
   auto later = std::make_shared<Sweep>(drive()[3]);
   later->stamp_ns += 60'000'000'000;

@@ -67,6 +67,25 @@ TEST(LiveWarnings, WithoutItsNameTheLidarIsNotLookedUp) {
   EXPECT_THAT(output.warnings.front(), HasSubstr("base_to_lidar"));
 }
 
+TEST(LiveWarnings, APlaceOfTheLidarInItsOwnFrameIsSaid) {
+  for (const char* frame : {"velodyne", "base_link"}) {
+    Output output;
+    NodeOptions options = at_once();
+    options.base_frame = frame;
+    options.base_to_lidar = {0, 0, 1.7, 0, 0, 0};
+    LiveOdometry odometry(options, "/points", output);
+    odometry.start();
+    odometry.push(from_frame(0, "velodyne"));
+    ASSERT_TRUE(output.wait_poses(1));
+    odometry.stop();
+    if (options.base_frame == "velodyne") {
+      EXPECT_THAT(output.warnings, ElementsAre(HasSubstr("base_frame is the messages' own frame, velodyne")));
+    } else {
+      EXPECT_TRUE(output.warnings.empty());
+    }
+  }
+}
+
 TEST_F(RunningNode, WhatTheReaderWarnsOfIsSaidOnce) {
   push(0, 2);
   odometry.push(message(1));  // a duplicate

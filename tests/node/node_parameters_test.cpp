@@ -60,6 +60,7 @@ TEST(NodeParameters, ValuesReachTheirMembers) {
                                             {"publish_tf", false},
                                             {"path_period", std::int64_t{3}},
                                             {"point_times", "azimuth"},
+                                            {"base_frame", "base_link"},
                                             {"base_to_lidar", std::vector<double>{1, 2, 3, 0, 0, 0}},
                                             {"icp.max_iterations", std::int64_t{7}},
                                             {"map.voxel_m", 0.7}});
@@ -120,6 +121,10 @@ TEST(NodeParameters, WhatIsWrongIsNamed) {
                 node_options({{"base_to_lidar", std::vector<double>{0, 0, 0, 0, 0, 0, 2}}});
               }),
               HasSubstr("length 1"));
+  EXPECT_THAT(refusal([] {
+                node_options({{"base_to_lidar", std::vector<double>{0, 0, 1, 0, 0, 0}}});
+              }),
+              HasSubstr("parameter base_frame: expected the robot's frame"));
   EXPECT_THAT(refusal([] { node_options({{"icp.max_iteration", std::int64_t{7}}}); }), HasSubstr("icp.max_iterations"));
   EXPECT_THAT(refusal([] { node_options({{"odomframe", "world"}}); }), HasSubstr("odom_frame"));
   // Each in its range, but not together.

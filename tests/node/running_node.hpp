@@ -73,6 +73,10 @@ class Output final : public NodeOutput {
     std::unique_lock lock(mutex);
     return changed.wait_for(lock, std::chrono::seconds(100), condition);
   }
+  bool has_poses(std::size_t count) {
+    const std::lock_guard lock(mutex);
+    return odometry.size() >= count;
+  }
   bool wait_poses(std::size_t count) {
     return wait([&] { return odometry.size() >= count; });
   }

@@ -10,6 +10,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
 #include <cstdlib>
+#include <future>
 #include <string>
 #include <thread>
 
@@ -61,6 +62,13 @@ class Server {
     });
   }
 
+  /// Pages that the hub knows of, gone or not.
+  std::size_t known_pages() {
+    std::promise<std::size_t> known;
+    asio::post(io_, [&] { known.set_value(hub_.sockets.size()); });
+    return known.get_future().get();
+  }
+
   void start_over() {
     asio::post(io_, [this] { hub_.start_over(); });
   }
@@ -72,8 +80,8 @@ class Server {
     return options;
   }
 
-  asio::io_context io_{1};
   Hub hub_;
+  asio::io_context io_{1};  // what waits in it counts in the hub to its end
   PageServer server_;
   std::thread thread_;
 };

@@ -178,6 +178,7 @@ async function hostile(page, address) {
   await page.waitForFunction(() => globalThis.viewer.run.sweep.number === 5);
   check(true, 'others go on while a client does not read and another one raves');
   sockets.forEach((socket) => socket.destroy());
+  await page.evaluate(() => { const { viewer } = globalThis; viewer.layer('choice').checked = false; viewer.layers(); });
   // What the program sends in a wrong form ends the connection, not the page.
   const message = await page.evaluate(() => new Promise((resolve) => {
     const { socket } = globalThis.viewer;
@@ -188,6 +189,7 @@ async function hostile(page, address) {
   check(/needed/.test(message), `a broken frame is refused: ${message}`);
   await page.waitForFunction((n) => globalThis.viewer.run.records.length === n && globalThis.viewer.run.sweep, SWEEPS);
   check(true, 'the page connects again by itself');
+  check(!(await page.evaluate(() => globalThis.viewer.paths.marksWanted)), 'a hidden layer stays hidden then');
 }
 
 async function live(browser, drive) {

@@ -197,6 +197,30 @@ TEST(ViewServer, SoManyPagesAndNoMore) {
   EXPECT_EQ(Page(server).read().at(0), 1U);
 }
 
+TEST(ViewServer, ConnectionsThatSayNothingLeaveDescriptorsToTheRun) {
+  const Server server;
+  asio::io_context io;
+  std::vector<tcp::socket> silent;
+  for (std::size_t i = 0; i < kMaxConnections; ++i) silent.push_back(connect(io, server));
+  EXPECT_EQ(status(server, get("/nothing", server.host())), 0);
+  silent.clear();
+  int answered = 0;
+  for (int i = 0; i < 500 && answered == 0; ++i) {
+    answered = status(server, get("/nothing", server.host()));
+    std::this_thread::sleep_for(10ms);
+  }
+  EXPECT_EQ(answered, 404);
+}
+
+TEST(ViewServer, PagesThatAreGoneAreForgotten) {
+  Server server;
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_EQ(Page(server).read().at(0), 1U);
+    while (server.hub().clients.load() > 0) std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_LE(server.known_pages(), 1U);
+}
+
 TEST(ViewServer, RefusesWhatItCannotBind) {
   Server server;
   asio::io_context io;

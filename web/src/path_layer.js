@@ -85,6 +85,7 @@ export class PathLayer {
     this.marks.frustumCulled = false;
     this.marks.renderOrder = 3;
     stage.scene.add(this.marks);
+    this.marksWanted = true;
     this.clear();
     onTheme(() => {
       for (const path of [this.truth, this.estimate]) path.material.color.set(colour(path.name));
@@ -98,7 +99,6 @@ export class PathLayer {
     this.estimate.clear();
     this.chosen = [];
     this.marks.visible = false;
-    this.marksWanted = true;
   }
 
   /// Records from `first` on are new. `coarse`: number of that source.

@@ -32,14 +32,23 @@ struct MapQualityConfig {
 };
 
 /// Smaller is sharper. Differences below about 1 % are noise of the choice of places.
+/// Wrong poses lose planes, the thick ones first: what is left can be thinner than the right poses' planes. So the
+/// figures of the planar places are compared at about equal planar_share only; bounded_rms_m does not gain by a lost
+/// plane. All of them gain by a path that is too short where most is open ground: `places` then differ, too.
 struct MapQuality {
   std::size_t sweeps = 0;
   std::size_t windows = 0;
+  std::size_t samples = 0;                 ///< places that were looked at
   std::size_t places = 0;                  ///< that counted
+  double planar_share = 0;                 ///< of the samples
+  double bounded_rms_m = 0;                ///< mean over all samples; one without a plane counts as no_plane_m()
   ErrorSummary plane_rms_m;                ///< root mean square distance to the local plane, over the planar places
   double plane_rms_p75_m = 0;              ///< its 75th percentile (linear, as numpy's); 0 without planar places
   std::optional<double> mean_map_entropy;  ///< mean of ½ ln det(2πe C) over the places, C in m²; empty without places
 };
+
+/// The thickness where an evenly filled disc of radius_m is planar no more; no sample counts more.
+double no_plane_m(const MapQualityConfig& config);
 
 /// Takes sweeps one after the other; keeps at most one window of them.
 /// C is the covariance (N − 1) of the neighbours of a place within radius_m in the map of the window, eigenvalues
@@ -70,6 +79,7 @@ class MapQualityMeter {
   std::size_t window_step_;
   std::size_t sweeps_ = 0;
   std::size_t windows_ = 0;
+  std::size_t samples_ = 0;
   std::deque<Kept> kept_;
   std::vector<double> entropies_;
   std::vector<double> plane_rms_m_;

@@ -36,8 +36,7 @@ struct OusterMetadata {
   std::size_t columns_sent = 1024;  ///< of a frame: the window may be smaller than a revolution
   std::vector<double> elevations_rad;
   std::vector<double> azimuths_rad;
-  double beam_origin_m = 0;  ///< from the axis of rotation
-  double rate_hz = 10;
+  double beam_origin_m = 0;                                      ///< from the axis of rotation
   Eigen::Matrix4d T_sensor_lidar = Eigen::Matrix4d::Identity();  ///< m
 
   std::size_t pixels() const { return elevations_rad.size(); }

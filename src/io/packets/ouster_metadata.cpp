@@ -107,7 +107,7 @@ OusterIdentity identity_of(const MetadataText& file) {
   return {parse_unsigned(file.text("prod_sn")).value_or(0), is_start ? static_cast<std::uint32_t>(start) : 0};
 }
 
-// "1024x10": columns per revolution, revolutions per second.
+// "1024x10": columns per revolution; the revolutions per second are those of the packets' times.
 void read_mode(const MetadataText& file, OusterMetadata& metadata) {
   const std::string mode = file.text("lidar_mode");
   unsigned columns = 0;
@@ -118,7 +118,6 @@ void read_mode(const MetadataText& file, OusterMetadata& metadata) {
   }
   metadata.columns_per_frame = file.count("columns_per_frame", columns, 8192);
   metadata.columns_sent = metadata.columns_per_frame;
-  metadata.rate_hz = rate;
 }
 
 // The first and the last column that are sent; the window may lie across the end of the revolution.

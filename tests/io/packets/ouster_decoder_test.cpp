@@ -92,7 +92,6 @@ TEST(OusterMetadataTest, TheWindowMayLieAcrossTheEndOfTheTurn) {
 TEST(OusterMetadataTest, WhatIsNotSaidIsThatOfTheFirstSensors) {
   const auto metadata = metadata_with(R"("lidar_mode": "16x20"})");
   EXPECT_EQ(metadata.columns_per_frame, 16U);
-  EXPECT_EQ(metadata.rate_hz, 20);
   EXPECT_DOUBLE_EQ(metadata.beam_origin_m, 0.012163);
   EXPECT_DOUBLE_EQ(metadata.T_sensor_lidar(2, 3), 0.03618);
   EXPECT_DOUBLE_EQ(metadata.elevations_rad[0], std::numbers::pi / 180);

@@ -11,10 +11,10 @@
 namespace rilo {
 namespace {
 
-constexpr double kStepM = 2.0;
+constexpr double kOnM = 2.0;
 const Eigen::Vector3d kAhead = Eigen::Vector3d::UnitX();
 
-MotionState moved(double x_m, double speed_m_s = 0.0) {
+MotionState state_on(double x_m, double speed_m_s = 0.0) {
   MotionState state;
   state.T_odom_lidar.translation().x() = x_m;
   state.twist[3] = speed_m_s;
@@ -56,14 +56,14 @@ SweepOverlap overlap_of(const TimedCloud& before, const MotionState& first, cons
 
 TEST(SweepOverlaps, WhatIsSpreadOutDecidesAndNotWhatIsDense) {
   const TimedCloud before = street(0.0);
-  const TimedCloud sweep = street(kStepM);
-  const SweepOverlap overlap = overlap_of(before, moved(0.0), sweep, moved(0.0));
-  const double at_rest = overlap.at(moved(0.0), Vector6d::Zero());
-  const double there = overlap.at(moved(kStepM), Vector6d::Zero());
+  const TimedCloud sweep = street(kOnM);
+  const SweepOverlap overlap = overlap_of(before, state_on(0.0), sweep, state_on(0.0));
+  const double at_rest = overlap.at(state_on(0.0), Vector6d::Zero());
+  const double there = overlap.at(state_on(kOnM), Vector6d::Zero());
   EXPECT_GT(there, 0.7);
   EXPECT_GT(at_rest, 0.1) << "the lorries";
   EXPECT_LT(at_rest, 0.5 * there);
-  EXPECT_GT(there, overlap.at(moved(kStepM + 2.0 * SweepOverlap::kSigmaM), Vector6d::Zero()));
+  EXPECT_GT(there, overlap.at(state_on(kOnM + 2.0 * SweepOverlap::kSigmaM), Vector6d::Zero()));
 }
 
 TEST(SweepOverlaps, PlanesAlongTheDirectionAreLeftOut) {
@@ -73,10 +73,10 @@ TEST(SweepOverlaps, PlanesAlongTheDirectionAreLeftOut) {
       walls.points.push_back(Eigen::Vector3d(x, 4.05, z).cast<float>());
     }
   }
-  EXPECT_EQ(overlap_of(walls, moved(0.0), walls, moved(0.0)).at(moved(0.0), Vector6d::Zero()), 0.0);
-  const SweepOverlap across({walls, moved(0.0), planes_of(walls, moved(0.0))},
-                            {walls, moved(0.0), planes_of(walls, moved(0.0))}, Eigen::Vector3d::UnitY());
-  EXPECT_NEAR(across.at(moved(0.0), Vector6d::Zero()), 1.0, 0.1) << "they show how far aside";
+  EXPECT_EQ(overlap_of(walls, state_on(0.0), walls, state_on(0.0)).at(state_on(0.0), Vector6d::Zero()), 0.0);
+  const SweepOverlap across({walls, state_on(0.0), planes_of(walls, state_on(0.0))},
+                            {walls, state_on(0.0), planes_of(walls, state_on(0.0))}, Eigen::Vector3d::UnitY());
+  EXPECT_NEAR(across.at(state_on(0.0), Vector6d::Zero()), 1.0, 0.1) << "they show how far aside";
 }
 
 /// Half of the points are taken 0.05 s before the pose, half after it.
@@ -91,19 +91,19 @@ TimedCloud taken_at(double speed_m_s, TimedCloud cloud) {
 TEST(SweepOverlaps, BothAreCompensatedForTheVelocityOfThePlace) {
   constexpr double kSpeed = 20.0;
   const TimedCloud before = taken_at(kSpeed, street(0.0));
-  const TimedCloud sweep = taken_at(kSpeed, street(kStepM));
-  const SweepOverlap overlap = overlap_of(before, moved(0.0), sweep, moved(kStepM, kSpeed));
-  EXPECT_GT(overlap.at(moved(kStepM, kSpeed), moved(0.0, kSpeed).twist), 0.7);
-  EXPECT_LT(overlap.at(moved(kStepM, kSpeed), Vector6d::Zero()), 0.5) << "the first one not";
-  EXPECT_LT(overlap.at(moved(kStepM), moved(0.0, kSpeed).twist), 0.5) << "the second one not";
+  const TimedCloud sweep = taken_at(kSpeed, street(kOnM));
+  const SweepOverlap overlap = overlap_of(before, state_on(0.0), sweep, state_on(kOnM, kSpeed));
+  EXPECT_GT(overlap.at(state_on(kOnM, kSpeed), state_on(0.0, kSpeed).twist), 0.7);
+  EXPECT_LT(overlap.at(state_on(kOnM, kSpeed), Vector6d::Zero()), 0.5) << "the first one not";
+  EXPECT_LT(overlap.at(state_on(kOnM), state_on(0.0, kSpeed).twist), 0.5) << "the second one not";
 }
 
 TEST(SweepOverlaps, NothingHasNothingInCommon) {
   const TimedCloud some = street(0.0);
   const TimedCloud one{{Eigen::Vector3f(1.0F, 2.0F, 3.0F)}};
   for (const TimedCloud& other : {TimedCloud{}, one}) {
-    EXPECT_EQ(overlap_of(some, moved(0.0), other, moved(0.0)).at(moved(0.0), Vector6d::Zero()), 0.0);
-    EXPECT_EQ(overlap_of(other, moved(0.0), some, moved(0.0)).at(moved(0.0), Vector6d::Zero()), 0.0);
+    EXPECT_EQ(overlap_of(some, state_on(0.0), other, state_on(0.0)).at(state_on(0.0), Vector6d::Zero()), 0.0);
+    EXPECT_EQ(overlap_of(other, state_on(0.0), some, state_on(0.0)).at(state_on(0.0), Vector6d::Zero()), 0.0);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "odometry/second_sweep.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -61,6 +62,11 @@ Vector6d SecondSweep::twist_of_first(const IcpResult& second, double sigma_m, co
   return (first.converged() ? first : second).state.twist;
 }
 
+/// A draft takes a share of the time of the last round, which it must leave.
+bool SecondSweep::too_late_for_two_rounds() const {
+  return parts_.deadline.passed_after((1.0 + 2.0 * kDraftShare) * parts_.first_map_ms);
+}
+
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the
 /// start implies, then with its own. All points are in use in the last round alone.
 Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior& first_prior, int rounds) const {
@@ -71,9 +77,7 @@ Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior&
   Vector6d twist = start.twist;
   bool last = false;
   for (int round = kRounds - rounds; !last; ++round) {
-    // A draft takes a share of the time of the last round, which it must leave.
-    const bool late = parts_.deadline.passed_after((1.0 + 2.0 * kDraftShare) * parts_.first_map_ms);
-    last = late || round + 1 == kRounds;
+    last = too_late_for_two_rounds() || round + 1 == kRounds;
     // Each round starts nearer.
     const double sigma_m = std::max(std::ldexp(parts_.usual_sigma_th_m, -round), parts_.config.threshold.floor_m);
     const Deadline round_end = search_.end().after(1.0 / (kRounds - round));
@@ -121,8 +125,10 @@ SecondSweep::Place SecondSweep::best_elsewhere(const Registration& found, const 
       places.push_back({{T, parts_.tracker.implied_twist(T)}});
     }
   }
+  std::atomic<bool> late = false;
   for_each_index(places.size(), [&](std::size_t i) {
-    if (!parts_.deadline.passed_after(parts_.first_map_ms)) {
+    late = late || parts_.deadline.passed_after(parts_.first_map_ms);
+    if (!late) {
       places[i].overlap = overlap.at(places[i].state, places[i].state.twist);
     }
   });
@@ -148,6 +154,10 @@ void SecondSweep::move_to_most_overlap(Registration& found) const {
     }
     found.ambiguous = other_place.overlap > kFitsWorse * here;
     if (other_place.overlap <= here) {
+      return;
+    }
+    found.cut = too_late_for_two_rounds();
+    if (found.cut) {
       return;
     }
     Registration other = in_rounds(other_place.state, parts_.tracker.prior(other_place.state), kNearbyRounds);

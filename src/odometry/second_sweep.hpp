@@ -22,6 +22,7 @@ class SecondSweep {
     double overlap = 0;
   };
 
+  bool too_late_for_two_rounds() const;
   Registration in_rounds(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
   SweepOverlap overlap_with_first(const Registration& found, const Eigen::Vector3d& direction) const;
   Place best_elsewhere(const Registration& found, const SweepOverlap& overlap, const Eigen::Vector3d& direction) const;

@@ -17,7 +17,7 @@ std::string json_text(const nlohmann::json& json);
 /// `text` with such bytes replaced.
 std::string valid_utf8(const std::string& text);
 
-/// For a line on a terminal: control characters, of file names and of data, as \\n or \\x1b.
+/// For a line on a terminal: control characters, of file names and of data, as \n or \x1b.
 std::string printable(const std::string& text);
 
 /// null for a figure that is not there.

@@ -86,7 +86,7 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   if (profile.found == 0.0 || !elsewhere(best.T_odom_lidar, found.icp.state.T_odom_lidar)) {
     // Where it was found, it may have moved as its neighbours do, not as the way to it implies.
     if (!is_degenerate(found.icp, parts_.config.health)) {
-      search_.try_from(best, from, found);
+      search_.keep_better(from(best), found);
     }
     return;
   }

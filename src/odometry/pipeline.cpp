@@ -215,8 +215,6 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
     threshold_.update(registration.T_init, tracker_.state().T_odom_lidar, step - last_step_);
     result.stats.gamma = threshold_.gamma();
     result.stats.deviation_m = threshold_.deviation_m();
-  } else {
-    threshold_.reset();  // sweeps that were empty in between widened it
   }
   last_step_ = step;
 
@@ -242,7 +240,9 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
 void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,
                     SweepResult& result) {
   result.covariance = unknown_velocity_covariance();
-  threshold_.widen();
+  if (map_.sweeps() > 1) {
+    threshold_.widen();  // the second sweep has no prediction that could be off
+  }
   tracker_.lose(predicted, claim);
   if (result.status == OdometryStatus::kEmpty) {
     return;  // nothing contradicts the map

@@ -47,12 +47,7 @@ SampleFit PoseSearch::fit_of(const TimedCloud& sample, const MotionState& start,
   return {icp.state, quality_of(icp, score, sample.size())};
 }
 
-void PoseSearch::try_from(const MotionState& start, const Register& from, Registration& found) const {
-  found.cut = found.cut || end_.passed();
-  if (found.cut) {
-    return;
-  }
-  Registration other = from(start);
+void PoseSearch::keep_better(Registration other, Registration& found) const {
   other.starts = ++found.starts;
   const double margin = 1.0 + parts_.config.initial_pose.margin;
   const bool settles = settles_better(other.icp, found.icp) && other.quality > found.quality;

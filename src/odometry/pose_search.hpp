@@ -1,8 +1,6 @@
 // Registering a sweep from several places where one start may not do, and which result is kept.
 #pragma once
 
-#include <functional>
-
 #include "odometry/registration.hpp"
 
 namespace rilo {
@@ -16,7 +14,6 @@ struct SampleFit {
 /// Searches the pose of one sweep; its state is that of the parts, which outlive it.
 class PoseSearch {
  public:
-  using Register = std::function<Registration(const MotionState& start)>;
   /// Of the time left; after a loss, what was found has to hold in the rest of it.
   static constexpr double kTimeShare = 0.7;
 
@@ -35,9 +32,9 @@ class PoseSearch {
   /// Some of the points, registered to a map from a start.
   SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map,
                    const Deadline& deadline) const;
-  /// Registers from a further start if there is time. Keeps what ends elsewhere and fits clearly better, or settles
-  /// where `found` did not.
-  void try_from(const MotionState& start, const Register& from, Registration& found) const;
+  /// Replaces `found` by the result of a further start that ends elsewhere and fits clearly better, or settles where
+  /// `found` did not.
+  void keep_better(Registration other, Registration& found) const;
 
  private:
   const RegistrationParts& parts_;

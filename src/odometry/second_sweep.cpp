@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 
 #include "cloud/fixed_chunks.hpp"
 #include "cloud/thinning.hpp"
 #include "odometry/optimum.hpp"
-#include "odometry/sweep_overlap.hpp"
 
 namespace rilo {
 
@@ -79,7 +79,7 @@ Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior&
   for (int round = kRounds - rounds; !last; ++round) {
     last = too_late_for_two_rounds() || round + 1 == kRounds;
     // Each round starts nearer.
-    const double sigma_m = std::max(std::ldexp(parts_.usual_sigma_th_m, -round), parts_.config.threshold.floor_m);
+    const double sigma_m = std::max(std::ldexp(parts_.sigma_th_m, -round), parts_.config.threshold.floor_m);
     const Deadline round_end = search_.end().after(1.0 / (kRounds - round));
     if (iterations > 0 && parts_.map.first_can_be_compensated()) {
       twist = twist_of_first(found.icp, sigma_m, round_end.after(0.5));

@@ -1,6 +1,7 @@
 #include "odometry/sweep_overlap.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include "cloud/deskew.hpp"
 #include "cloud/point_grid.hpp"

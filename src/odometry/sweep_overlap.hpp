@@ -1,8 +1,6 @@
 // How much two sweeps see in common under a motion between them.
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
 
 #include "cloud/timed_cloud.hpp"

@@ -128,8 +128,7 @@ Registration settled_at(double x_m, double quality) {
 /// What a search keeps that found something at 0 m with a quality of 10, and has one other start.
 Registration kept(const RegistrationParts& parts, const Registration& other,
                   Registration found = settled_at(0.0, 10.0)) {
-  PoseSearch(parts).try_from(
-      {}, [&](const MotionState&) { return other; }, found);
+  PoseSearch(parts).keep_better(other, found);
   return found;
 }
 

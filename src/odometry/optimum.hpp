@@ -16,10 +16,6 @@ inline double quality_of(const IcpResult& icp, double score, std::size_t points)
   return icp.residual_rms_m > 0.0 ? score * share / icp.residual_rms_m : 0.0;
 }
 
-/// A place with less than this share of another's quality, or overlap, fits worse: right sweeps hardly ever fit worse
-/// than usual, and of 113 second sweeps no other place had more than 0.80 of the overlap of the right one.
-inline constexpr double kFitsWorse = 0.9;
-
 /// Converged without points that had to be held.
 inline bool settled(const IcpResult& icp) { return icp.converged() && !icp.frozen; }
 

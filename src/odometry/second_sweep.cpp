@@ -20,6 +20,19 @@ constexpr double kDraftShare = 1.0 / 3.0;  // of the points; with a quarter fewe
 constexpr double kMostSpeed = 37.5;        // m/s, 135 km/h: so far other places are looked at, ...
 constexpr double kReachM = 40.0;           // ... but not where two sweeps share too little
 constexpr int kLooks = 3;                  // the first result may be turned, too
+constexpr double kSigmas = 3.0;            // of the difference of two overlaps, if it is to be none of chance
+
+/// Whether the first has more of the same places than the second by chance, were the places independent.
+bool more_by_chance(const std::vector<double>& first, const std::vector<double>& second) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const double difference = first[i] - second[i];
+    sum += difference;
+    squares += difference * difference;
+  }
+  return sum < kSigmas * std::sqrt(squares);
+}
 }  // namespace
 
 SecondSweep::SecondSweep(const RegistrationParts& parts, const PoseSearch& search)
@@ -110,9 +123,9 @@ SweepOverlap SecondSweep::overlap_with_first(const Registration& found, const Ei
 }
 
 /// Of the places along a direction that lie elsewhere, as far as a sensor may have moved, the one with the most
-/// overlap.
-SecondSweep::Place SecondSweep::best_elsewhere(const Registration& found, const SweepOverlap& overlap,
-                                               const Eigen::Vector3d& direction) const {
+/// overlap; none if it cannot have moved that far.
+std::optional<SecondSweep::Place> SecondSweep::best_elsewhere(const Registration& found, const SweepOverlap& overlap,
+                                                              const Eigen::Vector3d& direction) const {
   const SE3& T_found = found.icp.state.T_odom_lidar;
   const double moved_m = direction.dot(T_found.translation() - parts_.tracker.trusted().T_odom_lidar.translation());
   const double reach_m = std::min(kMostSpeed * parts_.tracker.since_trusted_s(), kReachM);
@@ -134,7 +147,7 @@ SecondSweep::Place SecondSweep::best_elsewhere(const Registration& found, const 
   });
   const auto best = std::max_element(places.begin(), places.end(),
                                      [](const Place& a, const Place& b) { return a.overlap < b.overlap; });
-  return best == places.end() ? Place{} : *best;
+  return best == places.end() ? std::nullopt : std::optional(*best);
 }
 
 /// No motion is known at the second sweep, and along a road it has several optima: at rest, too, when most of what it
@@ -147,20 +160,21 @@ void SecondSweep::move_to_most_overlap(Registration& found) const {
     const SweepOverlap overlap = overlap_with_first(found, weakest);
     const auto of = [&overlap](const Registration& r) { return overlap.at(r.icp.state, r.first->twist); };
     const double here = of(found);
-    const Place other_place = best_elsewhere(found, overlap, weakest);
+    const std::optional<Place> other_place = best_elsewhere(found, overlap, weakest);
     found.cut = parts_.deadline.passed_after(parts_.first_map_ms);  // then some places were not looked at
-    if (found.cut) {
+    if (found.cut || !other_place) {
       return;
     }
-    found.ambiguous = other_place.overlap > kFitsWorse * here;
-    if (other_place.overlap <= here) {
+    found.ambiguous = more_by_chance(overlap.matches(found.icp.state, found.first->twist),
+                                     overlap.matches(other_place->state, other_place->state.twist));
+    if (other_place->overlap <= here) {
       return;
     }
     found.cut = too_late_for_two_rounds();
     if (found.cut) {
       return;
     }
-    Registration other = in_rounds(other_place.state, parts_.tracker.prior(other_place.state), kNearbyRounds);
+    Registration other = in_rounds(other_place->state, parts_.tracker.prior(other_place->state), kNearbyRounds);
     other.starts = ++found.starts;
     if (of(other) <= here) {
       return;

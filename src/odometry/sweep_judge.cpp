@@ -10,6 +10,7 @@ namespace rilo {
 namespace {
 constexpr int kMostBeginnings = 10;    // a robot may start where the place shows no better second sweep
 constexpr double kShrunk = 1.0 / 3.0;  // of the last median range: doors and passing lorries take less at once
+constexpr double kFitsWorse = 0.9;     // of the usual quality: right sweeps hardly ever fit that much worse
 constexpr double kSeesLess = 0.25;     // of the usual least eigenvalue: right sweeps that fit worse hardly ever do
 /// Out of time while the points still moved by more than that: each update leaves about as much as it was. (With 0.03 m
 /// hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are.)

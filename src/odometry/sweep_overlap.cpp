@@ -1,6 +1,7 @@
 #include "odometry/sweep_overlap.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "cloud/deskew.hpp"
@@ -49,10 +50,7 @@ SweepOverlap::SweepOverlap(const Seen& before, const Seen& sweep, const Eigen::V
   }
 }
 
-double SweepOverlap::at(const MotionState& state, const Vector6d& twist_before) const {
-  if (places_.points.empty()) {
-    return 0.0;
-  }
+std::vector<double> SweepOverlap::matches(const MotionState& state, const Vector6d& twist_before) const {
   std::vector<Eigen::Vector3f> points;
   deskew(before_, {.twist = twist_before}, points);
   PointGrid grid(kReachSigmas * kSigmaM);
@@ -60,14 +58,19 @@ double SweepOverlap::at(const MotionState& state, const Vector6d& twist_before) 
   deskew(places_, state.motion(), points);
   const Eigen::Isometry3f T_before_lidar = (T_odom_before_.inverse() * state.T_odom_lidar).cast<float>();
   constexpr double kScale = -0.5 / (kSigmaM * kSigmaM);
-  double sum = 0.0;
-  for (const Eigen::Vector3f& p : points) {
+  std::vector<double> matches(points.size(), 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
     Neighbour nearest;
-    if (grid.nearest(T_before_lidar * p, kReachSigmas * kSigmaM, nearest)) {
-      sum += std::exp(kScale * static_cast<double>(nearest.distance2));
+    if (grid.nearest(T_before_lidar * points[i], kReachSigmas * kSigmaM, nearest)) {
+      matches[i] = std::exp(kScale * static_cast<double>(nearest.distance2));
     }
   }
-  return sum / static_cast<double>(points.size());
+  return matches;
+}
+
+double SweepOverlap::at(const MotionState& state, const Vector6d& twist_before) const {
+  const std::vector<double> all = matches(state, twist_before);
+  return all.empty() ? 0.0 : std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
 }
 
 }  // namespace rilo

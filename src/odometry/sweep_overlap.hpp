@@ -1,6 +1,8 @@
 // How much two sweeps see in common under a motion between them.
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "cloud/timed_cloud.hpp"
@@ -28,8 +30,11 @@ class SweepOverlap {
   /// left out.
   SweepOverlap(const Seen& before, const Seen& sweep, const Eigen::Vector3d& direction);
 
-  /// Mean over the places that the sweep sees of exp(−d²/2σ²), d the distance to the nearest point of the sweep before,
-  /// were this the sweep's state and `twist_before` the velocity of the one before. 0 … 1; 0 when there are no places.
+  /// For each place that the sweep sees exp(−d²/2σ²), d the distance to the nearest point of the sweep before, were
+  /// this the sweep's state and `twist_before` the velocity of the one before: 0 … 1.
+  std::vector<double> matches(const MotionState& state, const Vector6d& twist_before) const;
+
+  /// Mean of that; 0 when there are no places.
   double at(const MotionState& state, const Vector6d& twist_before) const;
 
  private:

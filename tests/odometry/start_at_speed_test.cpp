@@ -22,9 +22,10 @@ class Motorway {
   explicit Motorway(std::vector<double> lorries, double panel_size_m = 1.8, bool bushes = false)
       : lorries_(std::move(lorries)), panel_size_m_(panel_size_m), bushes_(bushes) {}
 
-  std::vector<Eigen::Vector3f> sweep(std::size_t index) {
+  /// `run`: of the noise.
+  std::vector<Eigen::Vector3f> sweep(std::size_t index, unsigned run = 0) {
     points_.clear();
-    noise_.seed(static_cast<unsigned>(index));
+    noise_.seed(1000 * run + static_cast<unsigned>(index));
     const double x_m = kStepM * static_cast<double>(index);
     for (double along = -kReachM; along <= kReachM; along += 0.35) {
       for (double across = -9.0; across <= 9.0; across += 0.75) {
@@ -54,8 +55,11 @@ class Motorway {
  private:
   void add(const Eigen::Vector3d& p) {
     std::normal_distribution<double> error(0.0, 0.01);
-    points_.emplace_back(
-        Eigen::Vector3d(p.x() + error(noise_), p.y() + error(noise_), p.z() + error(noise_)).cast<float>());
+    Eigen::Vector3d seen = p;
+    for (double& coordinate : seen) {  // in this order with any compiler
+      coordinate += error(noise_);
+    }
+    points_.push_back(seen.cast<float>());
   }
 
   /// An upright square that faces along the road.
@@ -95,11 +99,13 @@ SweepResult registered(Odometry& odometry, const std::vector<Eigen::Vector3f>& p
 }
 
 void expect_found(Motorway motorway, const std::vector<std::size_t>& sweeps) {
-  Odometry odometry({});
-  for (const std::size_t i : sweeps) {
-    const SweepResult result = registered(odometry, motorway.sweep(i), i);
-    SCOPED_TRACE(testing::Message() << i << ' ' << to_string(result.status));
-    EXPECT_NEAR(result.T_odom_lidar.translation().x(), kStepM * static_cast<double>(i), 0.1);
+  for (unsigned run = 0; run < 3; ++run) {
+    Odometry odometry({});
+    for (const std::size_t i : sweeps) {
+      const SweepResult result = registered(odometry, motorway.sweep(i, run), i);
+      SCOPED_TRACE(testing::Message() << run << ' ' << i << ' ' << to_string(result.status));
+      EXPECT_NEAR(result.T_odom_lidar.translation().x(), kStepM * static_cast<double>(i), 0.1);
+    }
   }
 }
 
@@ -128,7 +134,20 @@ std::size_t vouched_and_right(Motorway motorway, const std::vector<Faulty>& swee
 }
 
 TEST(StartAtSpeed, TheSecondSweepIsNotTakenToStandStill) {
-  expect_found(Motorway({-24.0, -15.0, 13.0, 24.0}), {0, 1, 2, 3, 4, 5, 6, 7});
+  expect_found(Motorway({-15.0, 13.0, 24.0}), {0, 1, 2, 3, 4, 5, 6, 7});
+}
+
+// As much drives with the sensor as stands: which of the two it is, is chance.
+TEST(StartAtSpeed, AmongAsManyLorriesAsPanelsAWrongSecondSweepIsNotVouchedFor) {
+  Motorway motorway({-24.0, -15.0, 13.0, 24.0});
+  for (unsigned run = 0; run < 20; ++run) {
+    Odometry odometry({});
+    registered(odometry, motorway.sweep(0, run), 0);
+    const SweepResult second = registered(odometry, motorway.sweep(1, run), 1);
+    EXPECT_TRUE(second.status == OdometryStatus::kInitialising ||
+                std::abs(second.T_odom_lidar.translation().x() - kStepM) < 0.1)
+        << run;
+  }
 }
 
 // A registration weights what it sees densely: the lorries. What is spread over the surroundings decides.

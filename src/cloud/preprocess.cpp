@@ -18,7 +18,7 @@ namespace rilo {
 namespace {
 
 constexpr std::size_t kBeamSample = 4000;  // points: enough for 128 beams at little cost
-constexpr std::size_t kPhaseStep = 7;      // prime: the samples of successive sweeps differ
+constexpr std::size_t kPhaseStep = 8;      // shares no factor with an odd stride: all points get their turn
 constexpr std::size_t kTimeSample = 100;   // points: a unit is wrong for nearly all of them
 constexpr double kMostGrowth = 1.15;       // of the voxel in a sweep: its number of points changes by a third
 constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz

@@ -55,7 +55,7 @@ void Pipeline::process(const SweepView& sweep, SweepResult& result) {
     result.status = OdometryStatus::kEmpty;
     result.covariance = unknown_velocity_covariance();
     if (map_.sweeps() > 0) {
-      lose(prepared, predict(prepared), std::nullopt, result);
+      lose(prepared, predict(prepared).steady(), std::nullopt, result);
     }
   } else if (map_.sweeps() == 0) {
     begin_map(prepared, {}, result);
@@ -74,11 +74,11 @@ void Pipeline::register_to_map(const PreparedSweep& prepared, SweepResult& resul
   if (judgement.status != OdometryStatus::kLost) {
     accept(prepared, std::move(registration), judgement.motion, result);  // III-C, local map
   } else if (judgement.fits_map) {
-    lose(prepared, predicted, registration.icp.state.T_odom_lidar, result);
+    lose(prepared, predicted.steady(), registration.icp.state.T_odom_lidar, result);
   } else {
     // What a second sweep found is not certain enough to vouch for; at rest, where it is predicted, it is less likely.
     const bool found = map_.sweeps() == 1 && registration.icp.converged();
-    lose(prepared, found ? registration.icp.state : predicted, std::nullopt, result);
+    lose(prepared, found ? registration.icp.state : predicted.steady(), std::nullopt, result);
   }
   result.stats.times.map_ms = clock_.lap_ms();
 }

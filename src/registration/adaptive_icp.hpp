@@ -44,6 +44,9 @@ struct MotionState {
     return {twist, mean + earlier.share * (mean - earlier.acceleration)};
   }
 
+  /// The same at constant velocity: what a guess may say of the motion.
+  MotionState steady() const { return {T_odom_lidar, twist}; }
+
   /// The velocity along the axes of the odometry frame, as perturbations are.
   Vector6d twist_in_odom() const {
     Vector6d twist_odom;

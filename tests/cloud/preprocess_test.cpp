@@ -280,6 +280,21 @@ TEST(PreprocessTest, TheSampleMeetsAllBeamsAndOtherPointsInTheNextSweep) {
   EXPECT_NE(second.cloud.points.front(), first.cloud.points.front());
 }
 
+TEST(PreprocessTest, EachPointIsSampledInTheLongRun) {
+  for (const std::size_t count : {20'000U, 30'000U, 87'000U}) {  // strides 5, 7, 21
+    const Sweep sweep = fired(count, 0.0F);
+    Preprocessor preprocessor(wide_config());
+    preprocessor.track_beams(true);
+    std::set<float> times_s;
+    const std::size_t stride = count / 4000 | 1U;
+    for (std::size_t i = 0; i < stride; ++i) {
+      const TimedCloud& cloud = preprocessor.prepare(sweep).beam_sample.cloud;
+      times_s.insert(cloud.offsets_s.begin(), cloud.offsets_s.end());
+    }
+    EXPECT_GT(times_s.size(), count * 9 / 10) << stride;
+  }
+}
+
 TEST(PreprocessTest, ResetForgetsWhatSweepsAndCalibrationTaught) {
   PreprocessConfig config = wide_config();
   Preprocessor fresh(config);

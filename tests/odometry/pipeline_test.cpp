@@ -162,6 +162,23 @@ TEST(Pipeline, EmptyAndNanSweepsArePassedOver) {
   }
 }
 
+TEST(Pipeline, AGuessedSweepHasTheVelocityOfTheLastAndNoAcceleration) {
+  Odometry odometry({});
+  SweepResult before;
+  for (int i = 0; i < 12; ++i) {
+    const double moved_m = 0.01 * i * i;  // 2 m/s²
+    before = odometry.register_sweep(room_sweep(along_x(moved_m), 100'000'000LL * i));
+    ASSERT_TRUE(i == 0 || before.status == OdometryStatus::kOk) << i << ' ' << to_string(before.status);
+  }
+  EXPECT_GT(before.acceleration[3], 1.0);
+  Sweep nothing;
+  nothing.stamp_ns = 1'200'000'000;
+  const SweepResult guess = odometry.register_sweep(nothing);
+  ASSERT_EQ(guess.status, OdometryStatus::kEmpty);
+  EXPECT_EQ(guess.twist, before.twist);
+  EXPECT_TRUE(guess.acceleration.isZero(0.0)) << guess.acceleration.transpose();
+}
+
 TEST(Pipeline, StampsThatStandStillOrJumpBackDoNotBreakIt) {
   Odometry odometry({});
   const std::int64_t stamps[] = {0, 100, 200, 200, 150, 500, 600};

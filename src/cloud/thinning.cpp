@@ -56,18 +56,4 @@ TimedCloud thinned(const TimedCloud& cloud, double share) {
   return kept;
 }
 
-TimedCloud every_nth(const TimedCloud& cloud, std::size_t stride) {
-  TimedCloud sample;
-  for (std::size_t i = 0; i < cloud.size(); i += stride) {
-    sample.points.push_back(cloud.points[i]);
-    if (cloud.timed()) {
-      sample.offsets_s.push_back(cloud.offsets_s[i]);
-    }
-    if (!cloud.counts.empty()) {
-      sample.counts.push_back(cloud.counts[i]);
-    }
-  }
-  return sample;
-}
-
 }  // namespace rilo

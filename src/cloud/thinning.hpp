@@ -17,7 +17,4 @@ SweepView thinned(const SweepView& sweep, double share, Sweep& kept);
 /// The same of a cloud.
 TimedCloud thinned(const TimedCloud& cloud, double share);
 
-/// Every `stride`-th point of a cloud with its time and count.
-TimedCloud every_nth(const TimedCloud& cloud, std::size_t stride);
-
 }  // namespace rilo

@@ -25,7 +25,7 @@ constexpr std::size_t kSearchStarts = 4;  // the cost of each is one registratio
 // A cloud compensated for a slightly wrong velocity serves as a target: at either end of a sweep of 0.1 s it is off by
 // less than good poses are.
 constexpr double kHalfSweepS = 0.05;
-constexpr double kSuspicious = 0.75;  // of the usual quality
+constexpr double kSuspicious = 0.85;  // of the usual quality
 }  // namespace
 
 InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse,
@@ -171,11 +171,10 @@ void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twi
   const Vector6d moved = kHalfSweepS * (twist - moving_twist_);
   if (moving_ && moved.head<3>().norm() < kPoseNoiseRad && moved.tail<3>().norm() < kPoseNoiseM) {
     target_ = std::move(moving_);
-  } else {
-    target_source_.points = source.points;
-    target_source_.offsets_s = source.offsets_s;
-    target_twist_ = twist;
   }
+  target_source_.points = source.points;
+  target_source_.offsets_s = source.offsets_s;
+  target_twist_ = twist;
   moving_.reset();
 }
 

@@ -88,6 +88,8 @@ class InitialPoseStage {
   /// Keeps the source of a sweep, to be compensated for `twist`, as target of the next coarse registration; the
   /// distribution that was made of it in search() where `twist` is about the velocity that it was compensated for then.
   void keep_target(const TimedCloud& source, const Vector6d& twist);
+  /// That source.
+  const TimedCloud& last_source() const { return target_source_; }
 
   void reset();
 

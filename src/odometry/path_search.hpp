@@ -1,23 +1,26 @@
-// Sweeps of another time: missing or reordered ones lie elsewhere on the path, where a sample of them stands out.
+// Sweeps of another time: missing or reordered ones lie elsewhere on the path.
 #pragma once
 
 #include <vector>
 
 #include "odometry/pose_search.hpp"
+#include "odometry/sweep_overlap.hpp"
 
 namespace rilo {
 
-/// Searches whole periods earlier and later along the predicted motion; the parts and the search outlive it.
+/// Looks earlier and later along the predicted motion for the place where the sweep has most in common with the last
+/// one; the parts and the search outlive it.
 class PathSearch {
  public:
   PathSearch(const RegistrationParts& parts, const PoseSearch& search) : parts_(parts), search_(search) {}
 
-  /// Replaces `found` where the sweep stands out elsewhere on the path and settles there. Where it does not settle,
-  /// `found` is ambiguous.
+  /// Replaces `found` where the sweep has clearly more in common elsewhere on the path and settles there. Where it does
+  /// not settle, `found` is ambiguous.
   void improve(const MotionState& predicted, Registration& found) const;
 
  private:
-  std::vector<SampleFit> fits_on_path(const MotionState& predicted, const Deadline& end) const;
+  SweepOverlap overlap_with_last(const MotionState& predicted, const Registration& found) const;
+  std::vector<MotionState> places_on_path(const MotionState& predicted) const;
 
   const RegistrationParts& parts_;
   const PoseSearch& search_;

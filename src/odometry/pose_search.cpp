@@ -1,11 +1,6 @@
 #include "odometry/pose_search.hpp"
 
-#include <algorithm>
-#include <utility>
-
-#include "cloud/deskew.hpp"
 #include "odometry/optimum.hpp"
-#include "registration/map_score.hpp"
 
 namespace rilo {
 
@@ -35,27 +30,6 @@ Registration PoseSearch::to_map(const MotionState& start, const MotionPrior& pri
 void PoseSearch::rate(Registration& found, const LocalMap& map) const {
   found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, map);
   found.quality = quality_of(found.icp, found.score, parts_.prepared.source.size());
-}
-
-SampleFit PoseSearch::fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map,
-                             const Deadline& deadline) const {
-  const IcpResult icp =
-      adaptive_icp(sample, map, start, parts_.tracker.prior(start), parts_.sigma_th_m, icp_, deadline);
-  std::vector<Eigen::Vector3f> points;
-  deskew(sample, icp.state.motion(), points);
-  const double score = map_score(points, map, icp.state.T_odom_lidar, parts_.config.initial_pose.score_sigma_m);
-  return {icp.state, quality_of(icp, score, sample.size())};
-}
-
-void PoseSearch::keep_better(Registration other, Registration& found) const {
-  other.starts = ++found.starts;
-  const double margin = 1.0 + parts_.config.initial_pose.margin;
-  const bool settles = settles_better(other.icp, found.icp) && other.quality > found.quality;
-  const bool fits = other.quality > margin * found.quality &&
-                    !same_optimum(other.icp.state.T_odom_lidar, found.icp.state.T_odom_lidar);
-  if (settles || fits) {
-    found = std::move(other);
-  }
 }
 
 }  // namespace rilo

@@ -1,15 +1,9 @@
-// Registering a sweep from several places where one start may not do, and which result is kept.
+// Registering a sweep from several places where one start may not do.
 #pragma once
 
 #include "odometry/registration.hpp"
 
 namespace rilo {
-
-/// Where a sample of a sweep comes to rest from a start, and how well it fits there.
-struct SampleFit {
-  MotionState state;
-  double quality = 0;  ///< 0: not tried
-};
 
 /// Searches the pose of one sweep; its state is that of the parts, which outlive it.
 class PoseSearch {
@@ -29,12 +23,6 @@ class PoseSearch {
                       const AdaptiveIcpConfig& icp, const Deadline& deadline) const;
   /// Score and quality of a registration to a map.
   void rate(Registration& found, const LocalMap& map) const;
-  /// Some of the points, registered to a map from a start.
-  SampleFit fit_of(const TimedCloud& sample, const MotionState& start, const LocalMap& map,
-                   const Deadline& deadline) const;
-  /// Replaces `found` by the result of a further start that ends elsewhere and fits clearly better, or settles where
-  /// `found` did not.
-  void keep_better(Registration other, Registration& found) const;
 
  private:
   const RegistrationParts& parts_;

@@ -17,22 +17,8 @@ namespace {
 constexpr int kRounds = 4;                 // each compensates the first sweep with the velocity of the one before
 constexpr int kNearbyRounds = 2;           // the last ones: the wide gate of the first may leave the basin of the start
 constexpr double kDraftShare = 1.0 / 3.0;  // of the points; with a quarter fewer second sweeps are certain
-constexpr double kMostSpeed = 37.5;        // m/s, 135 km/h: so far other places are looked at, ...
-constexpr double kReachM = 40.0;           // ... but not where two sweeps share too little
+constexpr double kMostSpeed = 37.5;        // m/s, 135 km/h: so far other places are looked at
 constexpr int kLooks = 3;                  // the first result may be turned, too
-constexpr double kSigmas = 3.0;            // of the difference of two overlaps, if it is to be none of chance
-
-/// Whether the first has more of the same places than the second by chance, were the places independent.
-bool more_by_chance(const std::vector<double>& first, const std::vector<double>& second) {
-  double sum = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const double difference = first[i] - second[i];
-    sum += difference;
-    squares += difference * difference;
-  }
-  return sum < kSigmas * std::sqrt(squares);
-}
 }  // namespace
 
 SecondSweep::SecondSweep(const RegistrationParts& parts, const PoseSearch& search)
@@ -117,9 +103,11 @@ SweepOverlap SecondSweep::overlap_with_first(const Registration& found, const Ei
   const SE3& origin = parts_.tracker.trusted().T_odom_lidar;
   const LocalMap planes = parts_.map.of_sweep(parts_.prepared.map_cloud, found.icp.state, parts_.prepared.scene_range_m,
                                               parts_.pose_by_elevation);
+  Vector6d motion = Vector6d::Zero();
+  motion.tail<3>() = direction;
   return {{parts_.map.first_cloud(), {origin, found.first->twist}, or_present(found.first->map)},
           {parts_.prepared.source, found.icp.state, planes},
-          direction};
+          motion};
 }
 
 /// Of the places along a direction that lie elsewhere, as far as a sensor may have moved, the one with the most
@@ -128,7 +116,7 @@ std::optional<SecondSweep::Place> SecondSweep::best_elsewhere(const Registration
                                                               const Eigen::Vector3d& direction) const {
   const SE3& T_found = found.icp.state.T_odom_lidar;
   const double moved_m = direction.dot(T_found.translation() - parts_.tracker.trusted().T_odom_lidar.translation());
-  const double reach_m = std::min(kMostSpeed * parts_.tracker.since_trusted_s(), kReachM);
+  const double reach_m = std::min(kMostSpeed * parts_.tracker.since_trusted_s(), SweepOverlap::kReachM);
   const auto steps = static_cast<int>(std::lround(reach_m / SweepOverlap::kSigmaM));
   std::vector<Place> places;
   for (int k = -steps; k <= steps; ++k) {
@@ -142,7 +130,8 @@ std::optional<SecondSweep::Place> SecondSweep::best_elsewhere(const Registration
   for_each_index(places.size(), [&](std::size_t i) {
     late = late || parts_.deadline.passed_after(parts_.first_map_ms);
     if (!late) {
-      places[i].overlap = overlap.at(places[i].state, places[i].state.twist);
+      const MotionState& state = places[i].state;
+      places[i].overlap = overlap.at(state, overlap.before({state.twist}));
     }
   });
   const auto best = std::max_element(places.begin(), places.end(),
@@ -158,15 +147,20 @@ void SecondSweep::move_to_most_overlap(Registration& found) const {
   const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
   for (int look = 0; look < kLooks; ++look) {
     const SweepOverlap overlap = overlap_with_first(found, weakest);
-    const auto of = [&overlap](const Registration& r) { return overlap.at(r.icp.state, r.first->twist); };
+    const auto of = [&overlap](const Registration& r) {
+      return overlap.at(r.icp.state, overlap.before({r.first->twist}));
+    };
     const double here = of(found);
     const std::optional<Place> other_place = best_elsewhere(found, overlap, weakest);
     found.cut = parts_.deadline.passed_after(parts_.first_map_ms);  // then some places were not looked at
     if (found.cut || !other_place) {
       return;
     }
-    found.ambiguous = more_by_chance(overlap.matches(found.icp.state, found.first->twist),
-                                     overlap.matches(other_place->state, other_place->state.twist));
+    const MotionState& there = other_place->state;
+    // Where nothing shows the way, this is no evidence against a place.
+    found.ambiguous =
+        here > 0.0 && !clearly_more(overlap.matches(found.icp.state, overlap.before({found.first->twist})),
+                                    overlap.matches(there, overlap.before({there.twist})));
     if (other_place->overlap <= here) {
       return;
     }
@@ -174,7 +168,7 @@ void SecondSweep::move_to_most_overlap(Registration& found) const {
     if (found.cut) {
       return;
     }
-    Registration other = in_rounds(other_place->state, parts_.tracker.prior(other_place->state), kNearbyRounds);
+    Registration other = in_rounds(there, parts_.tracker.prior(there), kNearbyRounds);
     other.starts = ++found.starts;
     if (of(other) <= here) {
       return;

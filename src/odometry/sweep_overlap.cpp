@@ -4,8 +4,6 @@
 #include <numeric>
 #include <vector>
 
-#include "cloud/deskew.hpp"
-#include "cloud/point_grid.hpp"
 #include "cloud/thinning.hpp"
 #include "cloud/voxel_sampler.hpp"
 
@@ -16,9 +14,10 @@ constexpr double kPlaceM = 1.0;            // edge of a place
 constexpr std::size_t kMostPlaces = 1000;  // enough to tell shares a tenth apart
 constexpr double kTellsApart = 0.3;        // least cosine between a normal and the direction of a motion that it shows
 constexpr double kReachSigmas = 3.0;
+constexpr double kSigmas = 3.0;  // of the difference of two overlaps, if it is to be none of chance
 
-/// One point a voxel, of surfaces that show a motion along `direction` or of none.
-TimedCloud telling(const SweepOverlap::Seen& seen, const Eigen::Vector3d& direction, double voxel_m) {
+/// One point a voxel, of surfaces that show the motion or of none.
+TimedCloud telling(const SweepOverlap::Seen& seen, const Vector6d& motion, double voxel_m) {
   std::vector<Eigen::Vector3f> points;
   deskew(seen.cloud, seen.state.motion(), points);
   VoxelSampler sampler;
@@ -26,9 +25,13 @@ TimedCloud telling(const SweepOverlap::Seen& seen, const Eigen::Vector3d& direct
   const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
     return seen.state.T_odom_lidar * points[sampled[k]].cast<double>();
   };
+  const auto way_of = [&](const Eigen::Vector3d& place) -> Eigen::Vector3d {
+    return motion.tail<3>() + motion.head<3>().cross(place - seen.state.T_odom_lidar.translation());
+  };
   TimedCloud kept;
-  const auto keep = [&](std::size_t k, const Eigen::Vector3d&, const PlaneSpot& spot) {
-    if (!spot.scatter && std::abs(spot.grid->plane_at(spot).normal.dot(direction)) < kTellsApart) {
+  const auto keep = [&](std::size_t k, const Eigen::Vector3d& place, const PlaneSpot& spot) {
+    const Eigen::Vector3d way = way_of(place);
+    if (!spot.scatter && std::abs(spot.grid->plane_at(spot).normal.dot(way)) < kTellsApart * way.norm()) {
       return;
     }
     kept.points.push_back(seen.cloud.points[sampled[k]]);
@@ -41,36 +44,52 @@ TimedCloud telling(const SweepOverlap::Seen& seen, const Eigen::Vector3d& direct
 }
 }  // namespace
 
-SweepOverlap::SweepOverlap(const Seen& before, const Seen& sweep, const Eigen::Vector3d& direction)
+SweepOverlap::SweepOverlap(const Seen& before, const Seen& sweep, const Vector6d& motion)
     : T_odom_before_(before.state.T_odom_lidar),
-      before_(telling(before, direction, kSigmaM)),
-      places_(telling(sweep, direction, kPlaceM)) {
+      before_(telling(before, motion, kSigmaM)),
+      places_(telling(sweep, motion, kPlaceM)) {
   if (places_.size() > kMostPlaces) {
     places_ = thinned(places_, static_cast<double>(kMostPlaces) / static_cast<double>(places_.size()));
   }
 }
 
-std::vector<double> SweepOverlap::matches(const MotionState& state, const Vector6d& twist_before) const {
+PointGrid SweepOverlap::before(const BodyMotion& motion) const {
   std::vector<Eigen::Vector3f> points;
-  deskew(before_, {.twist = twist_before}, points);
+  deskew(before_, motion, points);
   PointGrid grid(kReachSigmas * kSigmaM);
   grid.build(points);
+  return grid;
+}
+
+std::vector<double> SweepOverlap::matches(const MotionState& state, const PointGrid& before) const {
+  std::vector<Eigen::Vector3f> points;
   deskew(places_, state.motion(), points);
   const Eigen::Isometry3f T_before_lidar = (T_odom_before_.inverse() * state.T_odom_lidar).cast<float>();
   constexpr double kScale = -0.5 / (kSigmaM * kSigmaM);
   std::vector<double> matches(points.size(), 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     Neighbour nearest;
-    if (grid.nearest(T_before_lidar * points[i], kReachSigmas * kSigmaM, nearest)) {
+    if (before.nearest(T_before_lidar * points[i], kReachSigmas * kSigmaM, nearest)) {
       matches[i] = std::exp(kScale * static_cast<double>(nearest.distance2));
     }
   }
   return matches;
 }
 
-double SweepOverlap::at(const MotionState& state, const Vector6d& twist_before) const {
-  const std::vector<double> all = matches(state, twist_before);
+double SweepOverlap::at(const MotionState& state, const PointGrid& before) const {
+  const std::vector<double> all = matches(state, before);
   return all.empty() ? 0.0 : std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+}
+
+bool clearly_more(std::span<const double> most, std::span<const double> others) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < most.size(); ++i) {
+    const double difference = most[i] - others[i];
+    sum += difference;
+    squares += difference * difference;
+  }
+  return sum > kSigmas * std::sqrt(squares);
 }
 
 }  // namespace rilo

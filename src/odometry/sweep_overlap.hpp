@@ -1,46 +1,58 @@
 // How much two sweeps see in common under a motion between them.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "cloud/deskew.hpp"
+#include "cloud/point_grid.hpp"
 #include "cloud/timed_cloud.hpp"
 #include "map/local_map.hpp"
 #include "registration/adaptive_icp.hpp"
 
 namespace rilo {
 
-/// Compares a sweep with the one before where no motion is known. A registration weights what the sensor sees densely:
-/// the road, and cars of the sensor's own pace. Here each cubic metre counts once, so that what is spread over the
-/// surroundings decides.
+/// Compares a sweep with the one before where the motion between them is in doubt. A registration weights what the
+/// sensor sees densely: the road, and cars of the sensor's own pace. Here each cubic metre counts once, so that what is
+/// spread over the surroundings decides.
 class SweepOverlap {
  public:
   /// Width of a match; places half as far apart and nearer are hardly told apart.
   static constexpr double kSigmaM = 0.25;
+  /// Sweeps that are taken farther apart share too little.
+  static constexpr double kReachM = 40.0;
 
-  /// A sweep and the planes of it alone.
+  /// A sweep and the planes around it.
   struct Seen {
     const TimedCloud& cloud;  ///< m, sensor frame, with times
     MotionState state;
     const LocalMap& planes;  ///< in that state
   };
 
-  /// `direction`: unit, odometry frame. Planes along it look alike wherever they are moved along it: their points are
-  /// left out.
-  SweepOverlap(const Seen& before, const Seen& sweep, const Eigen::Vector3d& direction);
+  /// `motion`: a twist of the sensor, axes of the odometry frame, of any length. Planes that it moves along themselves
+  /// look alike wherever they are moved by it: their points are left out.
+  SweepOverlap(const Seen& before, const Seen& sweep, const Vector6d& motion);
 
-  /// For each place that the sweep sees exp(−d²/2σ²), d the distance to the nearest point of the sweep before, were
-  /// this the sweep's state and `twist_before` the velocity of the one before: 0 … 1.
-  std::vector<double> matches(const MotionState& state, const Vector6d& twist_before) const;
+  /// The sweep before, compensated for its motion.
+  PointGrid before(const BodyMotion& motion) const;
+
+  /// For each place that the sweep sees exp(−d²/2σ²), d the distance to the nearest point of `before`, were this the
+  /// sweep's state: 0 … 1.
+  std::vector<double> matches(const MotionState& state, const PointGrid& before) const;
 
   /// Mean of that; 0 when there are no places.
-  double at(const MotionState& state, const Vector6d& twist_before) const;
+  double at(const MotionState& state, const PointGrid& before) const;
 
  private:
   SE3 T_odom_before_;
   TimedCloud before_;
   TimedCloud places_;
 };
+
+/// Whether the matches `most` exceed those of the same places under another motion by three standard deviations of
+/// their difference, were the places independent.
+bool clearly_more(std::span<const double> most, std::span<const double> others);
 
 }  // namespace rilo

@@ -61,19 +61,5 @@ TEST(Thinning, NothingAndAll) {
   EXPECT_EQ(thinned(cloud, 0.0).size(), 0U);
 }
 
-TEST(Thinning, EveryNthPointKeepsItsTimeAndCount) {
-  TimedCloud cloud;
-  for (int i = 0; i < 7; ++i) {
-    cloud.points.emplace_back(static_cast<float>(i), 0.0F, 0.0F);
-    cloud.offsets_s.push_back(0.25F * static_cast<float>(i));
-  }
-  const TimedCloud sample = every_nth(cloud, 3);
-  ASSERT_EQ(sample.size(), 3U);
-  EXPECT_EQ(sample.points[2].x(), 6.0F);
-  EXPECT_EQ(sample.offsets_s[2], 1.5F);
-  EXPECT_TRUE(sample.counts.empty());
-  EXPECT_EQ(every_nth({}, 3).size(), 0U);
-}
-
 }  // namespace
 }  // namespace rilo

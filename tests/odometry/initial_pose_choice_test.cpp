@@ -40,8 +40,8 @@ TEST(InitialPoseStage, AFitFarBelowTheUsualOneIsSuspicious) {
   InitialPoseStage stage({}, {});
   EXPECT_FALSE(stage.suspicious(0.1));  // nothing is usual yet
   stage.learn(0.8, 20.0);
-  EXPECT_FALSE(stage.suspicious(15.1));
-  EXPECT_TRUE(stage.suspicious(14.9));
+  EXPECT_FALSE(stage.suspicious(17.1));
+  EXPECT_TRUE(stage.suspicious(16.9));
 }
 
 TEST(InitialPoseStage, TheQualityOfTheFirstSweepsOfAMapIsNotUsual) {

@@ -1,6 +1,7 @@
 // What two sweeps have in common counts by the space that it fills, not by its points.
 #include "odometry/sweep_overlap.hpp"
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace rilo {
 namespace {
 
 constexpr double kOnM = 2.0;
-const Eigen::Vector3d kAhead = Eigen::Vector3d::UnitX();
+const Vector6d kAhead = Vector6d::Unit(3);
+const Vector6d kTurning = Vector6d::Unit(2);
 
 MotionState state_on(double x_m, double speed_m_s = 0.0) {
   MotionState state;
@@ -50,20 +52,24 @@ LocalMap planes_of(const TimedCloud& cloud, const MotionState& state) {
 }
 
 SweepOverlap overlap_of(const TimedCloud& before, const MotionState& first, const TimedCloud& sweep,
-                        const MotionState& found) {
-  return {{before, first, planes_of(before, first)}, {sweep, found, planes_of(sweep, found)}, kAhead};
+                        const MotionState& found, const Vector6d& motion = kAhead) {
+  return {{before, first, planes_of(before, first)}, {sweep, found, planes_of(sweep, found)}, motion};
+}
+
+double at(const SweepOverlap& overlap, const MotionState& state, const Vector6d& twist_before = Vector6d::Zero()) {
+  return overlap.at(state, overlap.before({twist_before}));
 }
 
 TEST(SweepOverlaps, WhatIsSpreadOutDecidesAndNotWhatIsDense) {
   const TimedCloud before = street(0.0);
   const TimedCloud sweep = street(kOnM);
   const SweepOverlap overlap = overlap_of(before, state_on(0.0), sweep, state_on(0.0));
-  const double at_rest = overlap.at(state_on(0.0), Vector6d::Zero());
-  const double there = overlap.at(state_on(kOnM), Vector6d::Zero());
+  const double at_rest = at(overlap, state_on(0.0));
+  const double there = at(overlap, state_on(kOnM));
   EXPECT_GT(there, 0.7);
   EXPECT_GT(at_rest, 0.1) << "the lorries";
   EXPECT_LT(at_rest, 0.5 * there);
-  EXPECT_GT(there, overlap.at(state_on(kOnM + 2.0 * SweepOverlap::kSigmaM), Vector6d::Zero()));
+  EXPECT_GT(there, at(overlap, state_on(kOnM + 2.0 * SweepOverlap::kSigmaM)));
 }
 
 TEST(SweepOverlaps, PlanesAlongTheDirectionAreLeftOut) {
@@ -73,10 +79,25 @@ TEST(SweepOverlaps, PlanesAlongTheDirectionAreLeftOut) {
       walls.points.push_back(Eigen::Vector3d(x, 4.05, z).cast<float>());
     }
   }
-  EXPECT_EQ(overlap_of(walls, state_on(0.0), walls, state_on(0.0)).at(state_on(0.0), Vector6d::Zero()), 0.0);
-  const SweepOverlap across({walls, state_on(0.0), planes_of(walls, state_on(0.0))},
-                            {walls, state_on(0.0), planes_of(walls, state_on(0.0))}, Eigen::Vector3d::UnitY());
-  EXPECT_NEAR(across.at(state_on(0.0), Vector6d::Zero()), 1.0, 0.1) << "they show how far aside";
+  const auto in_common = [&](const Vector6d& motion) {
+    return at(overlap_of(walls, state_on(0.0), walls, state_on(0.0), motion), state_on(0.0));
+  };
+  EXPECT_EQ(in_common(kAhead), 0.0);
+  EXPECT_NEAR(in_common(Vector6d::Unit(4)), 1.0, 0.1) << "they show how far aside";
+  EXPECT_NEAR(in_common(kTurning), 1.0, 0.1) << "and how far it has turned";
+}
+
+TEST(SweepOverlaps, WhatIsClearlyMoreIsSoByThreeStandardDeviations) {
+  const std::vector<double> none(20, 0.0);
+  const auto matched = [](std::size_t places) {
+    std::vector<double> matches(20, 0.0);
+    std::fill_n(matches.begin(), places, 1.0);
+    return matches;
+  };
+  EXPECT_FALSE(clearly_more(matched(9), none)) << "9 = 3 sqrt(9)";
+  EXPECT_TRUE(clearly_more(matched(10), none));
+  EXPECT_FALSE(clearly_more(none, matched(10)));
+  EXPECT_FALSE(clearly_more(none, none));
 }
 
 /// Half of the points are taken 0.05 s before the pose, half after it.
@@ -93,17 +114,17 @@ TEST(SweepOverlaps, BothAreCompensatedForTheVelocityOfThePlace) {
   const TimedCloud before = taken_at(kSpeed, street(0.0));
   const TimedCloud sweep = taken_at(kSpeed, street(kOnM));
   const SweepOverlap overlap = overlap_of(before, state_on(0.0), sweep, state_on(kOnM, kSpeed));
-  EXPECT_GT(overlap.at(state_on(kOnM, kSpeed), state_on(0.0, kSpeed).twist), 0.7);
-  EXPECT_LT(overlap.at(state_on(kOnM, kSpeed), Vector6d::Zero()), 0.5) << "the first one not";
-  EXPECT_LT(overlap.at(state_on(kOnM), state_on(0.0, kSpeed).twist), 0.5) << "the second one not";
+  EXPECT_GT(at(overlap, state_on(kOnM, kSpeed), state_on(0.0, kSpeed).twist), 0.7);
+  EXPECT_LT(at(overlap, state_on(kOnM, kSpeed)), 0.5) << "the first one not";
+  EXPECT_LT(at(overlap, state_on(kOnM), state_on(0.0, kSpeed).twist), 0.5) << "the second one not";
 }
 
 TEST(SweepOverlaps, NothingHasNothingInCommon) {
   const TimedCloud some = street(0.0);
   const TimedCloud one{{Eigen::Vector3f(1.0F, 2.0F, 3.0F)}};
   for (const TimedCloud& other : {TimedCloud{}, one}) {
-    EXPECT_EQ(overlap_of(some, state_on(0.0), other, state_on(0.0)).at(state_on(0.0), Vector6d::Zero()), 0.0);
-    EXPECT_EQ(overlap_of(other, state_on(0.0), some, state_on(0.0)).at(state_on(0.0), Vector6d::Zero()), 0.0);
+    EXPECT_EQ(at(overlap_of(some, state_on(0.0), other, state_on(0.0)), state_on(0.0)), 0.0);
+    EXPECT_EQ(at(overlap_of(other, state_on(0.0), some, state_on(0.0)), state_on(0.0)), 0.0);
   }
 }
 

@@ -18,7 +18,10 @@ constexpr int kPeriods = 8;
 
 void PathSearch::improve(const MotionState& predicted, Registration& found) const {
   const Deadline looks_end = search_.end().after(PoseSearch::kTimeShare);
-  const std::vector<MotionState> places = places_on_path(predicted);
+  const std::vector<MotionState> places = other_places_on_path(predicted, found);
+  if (places.empty()) {
+    return;
+  }
   const SweepOverlap overlap = overlap_with_last(predicted, found);
   const PointGrid last = overlap.before(parts_.tracker.trusted().motion());
   std::vector<double> overlaps(places.size());
@@ -36,8 +39,7 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   const MotionState& best = places[static_cast<std::size_t>(
       std::distance(overlaps.begin(), std::max_element(overlaps.begin(), overlaps.end())))];
   const std::vector<double> of_found = overlap.matches(found.icp.state, last);
-  if (!elsewhere(best.T_odom_lidar, found.icp.state.T_odom_lidar) ||
-      !clearly_more(overlap.matches(best, last), of_found)) {
+  if (!clearly_more(overlap.matches(best, last), of_found)) {
     return;
   }
   const auto from = [&](const MotionState& start) {
@@ -55,16 +57,20 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   }
 }
 
-/// Where the sensor was or will be, so far apart that between two places a match is still 0.6, or, where it turns
-/// rather than moves, a period apart.
-std::vector<MotionState> PathSearch::places_on_path(const MotionState& predicted) const {
+/// Where else than it was found the sensor was or will be, so far apart that between two places a match is still 0.6,
+/// or, where it turns rather than moves, a period apart.
+std::vector<MotionState> PathSearch::other_places_on_path(const MotionState& predicted,
+                                                          const Registration& found) const {
   const double speed_m_s = predicted.twist.tail<3>().norm();
   const double reach_s = std::min(kPeriods * parts_.period_s, SweepOverlap::kReachM / std::max(speed_m_s, 1e-9));
   const double step_s = std::min(parts_.period_s, 2.0 * SweepOverlap::kSigmaM / std::max(speed_m_s, 1e-9));
   const auto steps = static_cast<int>(std::lround(reach_s / step_s));
   std::vector<MotionState> places;
   for (int k = -steps; k <= steps; ++k) {
-    places.push_back({predicted.T_odom_lidar * se3_exp(k * step_s * predicted.twist), predicted.twist});
+    const SE3 T = predicted.T_odom_lidar * se3_exp(k * step_s * predicted.twist);
+    if (elsewhere(T, found.icp.state.T_odom_lidar)) {
+      places.push_back({T, predicted.twist});
+    }
   }
   return places;
 }

@@ -20,7 +20,7 @@ class PathSearch {
 
  private:
   SweepOverlap overlap_with_last(const MotionState& predicted, const Registration& found) const;
-  std::vector<MotionState> places_on_path(const MotionState& predicted) const;
+  std::vector<MotionState> other_places_on_path(const MotionState& predicted, const Registration& found) const;
 
   const RegistrationParts& parts_;
   const PoseSearch& search_;

@@ -1,11 +1,9 @@
 #include "odometry/path_search.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
-#include "cloud/fixed_chunks.hpp"
 #include "odometry/optimum.hpp"
 
 namespace rilo {
@@ -24,20 +22,14 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   }
   const SweepOverlap overlap = overlap_with_last(predicted, found);
   const PointGrid last = overlap.before(parts_.tracker.trusted().motion());
-  std::vector<double> overlaps(places.size());
-  std::atomic<bool> late = false;
-  for_each_index(places.size(), [&](std::size_t i) {
-    late = late || looks_end.passed();
-    if (!late) {
-      overlaps[i] = overlap.at(places[i], last);
-    }
-  });
-  found.cut = looks_end.passed();
+  const auto late = [&] { return looks_end.passed(); };
+  const auto most = most_overlap(
+      places.size(), [&](std::size_t i) { return overlap.at(places[i], last); }, late);
+  found.cut = late();
   if (found.cut) {
     return;
   }
-  const MotionState& best = places[static_cast<std::size_t>(
-      std::distance(overlaps.begin(), std::max_element(overlaps.begin(), overlaps.end())))];
+  const MotionState& best = places[*most];
   const std::vector<double> of_found = overlap.matches(found.icp.state, last);
   if (!clearly_more(overlap.matches(best, last), of_found)) {
     return;

@@ -1,13 +1,11 @@
 #include "odometry/second_sweep.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
 
-#include "cloud/fixed_chunks.hpp"
 #include "cloud/thinning.hpp"
 #include "odometry/optimum.hpp"
 
@@ -110,33 +108,22 @@ SweepOverlap SecondSweep::overlap_with_first(const Registration& found, const Ei
           motion};
 }
 
-/// Of the places along a direction that lie elsewhere, as far as a sensor may have moved, the one with the most
-/// overlap; none if it cannot have moved that far.
-std::optional<SecondSweep::Place> SecondSweep::best_elsewhere(const Registration& found, const SweepOverlap& overlap,
-                                                              const Eigen::Vector3d& direction) const {
+/// The places along a direction that lie elsewhere, as far as a sensor may have moved.
+std::vector<MotionState> SecondSweep::places_elsewhere(const Registration& found,
+                                                       const Eigen::Vector3d& direction) const {
   const SE3& T_found = found.icp.state.T_odom_lidar;
   const double moved_m = direction.dot(T_found.translation() - parts_.tracker.trusted().T_odom_lidar.translation());
   const double reach_m = std::min(kMostSpeed * parts_.tracker.since_trusted_s(), SweepOverlap::kReachM);
   const auto steps = static_cast<int>(std::lround(reach_m / SweepOverlap::kSigmaM));
-  std::vector<Place> places;
+  std::vector<MotionState> places;
   for (int k = -steps; k <= steps; ++k) {
     SE3 T = T_found;
     T.translation() += (k * SweepOverlap::kSigmaM - moved_m) * direction;
     if (elsewhere(T, T_found)) {
-      places.push_back({{T, parts_.tracker.implied_twist(T)}});
+      places.push_back({T, parts_.tracker.implied_twist(T)});
     }
   }
-  std::atomic<bool> late = false;
-  for_each_index(places.size(), [&](std::size_t i) {
-    late = late || parts_.deadline.passed_after(parts_.first_map_ms);
-    if (!late) {
-      const MotionState& state = places[i].state;
-      places[i].overlap = overlap.at(state, overlap.before({state.twist}));
-    }
-  });
-  const auto best = std::max_element(places.begin(), places.end(),
-                                     [](const Place& a, const Place& b) { return a.overlap < b.overlap; });
-  return best == places.end() ? std::nullopt : std::optional(*best);
+  return places;
 }
 
 /// No motion is known at the second sweep, and along a road it has several optima: at rest, too, when most of what it
@@ -147,21 +134,24 @@ void SecondSweep::move_to_most_overlap(Registration& found) const {
   const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
   for (int look = 0; look < kLooks; ++look) {
     const SweepOverlap overlap = overlap_with_first(found, weakest);
-    const auto of = [&overlap](const Registration& r) {
-      return overlap.at(r.icp.state, overlap.before({r.first->twist}));
+    const auto matches_at = [&](const MotionState& state, const Vector6d& twist_of_first) {
+      return overlap.matches(state, overlap.before({twist_of_first}));
     };
-    const double here = of(found);
-    const std::optional<Place> other_place = best_elsewhere(found, overlap, weakest);
-    found.cut = parts_.deadline.passed_after(parts_.first_map_ms);  // then some places were not looked at
-    if (found.cut || !other_place) {
+    const std::vector<double> of_found = matches_at(found.icp.state, found.first->twist);
+    const double here = mean_match(of_found);
+    const std::vector<MotionState> places = places_elsewhere(found, weakest);
+    const auto overlap_at = [&](std::size_t i) { return mean_match(matches_at(places[i], places[i].twist)); };
+    const auto late = [&] { return parts_.deadline.passed_after(parts_.first_map_ms); };
+    const auto most = most_overlap(places.size(), overlap_at, late);
+    found.cut = late();  // then some places were not looked at
+    if (found.cut || !most) {
       return;
     }
-    const MotionState& there = other_place->state;
+    const MotionState& there = places[*most];
+    const std::vector<double> of_there = matches_at(there, there.twist);
     // Where nothing shows the way, this is no evidence against a place.
-    found.ambiguous =
-        here > 0.0 && !clearly_more(overlap.matches(found.icp.state, overlap.before({found.first->twist})),
-                                    overlap.matches(there, overlap.before({there.twist})));
-    if (other_place->overlap <= here) {
+    found.ambiguous = here > 0.0 && !clearly_more(of_found, of_there);
+    if (mean_match(of_there) <= here) {
       return;
     }
     found.cut = too_late_for_two_rounds();
@@ -170,7 +160,7 @@ void SecondSweep::move_to_most_overlap(Registration& found) const {
     }
     Registration other = in_rounds(there, parts_.tracker.prior(there), kNearbyRounds);
     other.starts = ++found.starts;
-    if (of(other) <= here) {
+    if (mean_match(matches_at(other.icp.state, other.first->twist)) <= here) {
       return;
     }
     other.ambiguous = true;  // until it was looked at

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "odometry/pose_search.hpp"
 #include "odometry/sweep_overlap.hpp"
@@ -17,16 +18,10 @@ class SecondSweep {
   Registration registered(const MotionState& start, const MotionPrior& prior) const;
 
  private:
-  struct Place {
-    MotionState state;
-    double overlap = 0;
-  };
-
   bool too_late_for_two_rounds() const;
   Registration in_rounds(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
   SweepOverlap overlap_with_first(const Registration& found, const Eigen::Vector3d& direction) const;
-  std::optional<Place> best_elsewhere(const Registration& found, const SweepOverlap& overlap,
-                                      const Eigen::Vector3d& direction) const;
+  std::vector<MotionState> places_elsewhere(const Registration& found, const Eigen::Vector3d& direction) const;
   void move_to_most_overlap(Registration& found) const;
   std::optional<LocalMap> of_first_sweep(const TimedCloud& first, const Vector6d& twist) const;
   const LocalMap& or_present(const std::optional<LocalMap>& compensated) const;

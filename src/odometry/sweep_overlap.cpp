@@ -1,9 +1,12 @@
 #include "odometry/sweep_overlap.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
+#include "cloud/fixed_chunks.hpp"
 #include "cloud/thinning.hpp"
 #include "cloud/voxel_sampler.hpp"
 
@@ -76,9 +79,23 @@ std::vector<double> SweepOverlap::matches(const MotionState& state, const PointG
   return matches;
 }
 
-double SweepOverlap::at(const MotionState& state, const PointGrid& before) const {
-  const std::vector<double> all = matches(state, before);
-  return all.empty() ? 0.0 : std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+double mean_match(std::span<const double> matches) {
+  const double sum = std::accumulate(matches.begin(), matches.end(), 0.0);
+  return matches.empty() ? 0.0 : sum / static_cast<double>(matches.size());
+}
+
+std::optional<std::size_t> most_overlap(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
+                                        const std::function<bool()>& late) {
+  std::vector<double> overlaps(count);
+  std::atomic<bool> over = false;
+  for_each_index(count, [&](std::size_t i) {
+    over = over || late();
+    if (!over) {
+      overlaps[i] = overlap_at(i);
+    }
+  });
+  const auto most = std::max_element(overlaps.begin(), overlaps.end());
+  return count > 0 ? std::optional(static_cast<std::size_t>(most - overlaps.begin())) : std::nullopt;
 }
 
 bool clearly_more(std::span<const double> most, std::span<const double> others) {

@@ -1,6 +1,9 @@
 // How much two sweeps see in common under a motion between them.
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +16,9 @@
 #include "registration/adaptive_icp.hpp"
 
 namespace rilo {
+
+/// Mean of the matches; 0 when there are none.
+double mean_match(std::span<const double> matches);
 
 /// Compares a sweep with the one before where the motion between them is in doubt. A registration weights what the
 /// sensor sees densely: the road, and cars of the sensor's own pace. Here each cubic metre counts once, so that what is
@@ -42,14 +48,18 @@ class SweepOverlap {
   /// sweep's state: 0 … 1.
   std::vector<double> matches(const MotionState& state, const PointGrid& before) const;
 
-  /// Mean of that; 0 when there are no places.
-  double at(const MotionState& state, const PointGrid& before) const;
+  double at(const MotionState& state, const PointGrid& before) const { return mean_match(matches(state, before)); }
 
  private:
   SE3 T_odom_before_;
   TimedCloud before_;
   TimedCloud places_;
 };
+
+/// Of `count` places, looked at in parallel until it is `late`, the one with the most overlap, the first of equal ones.
+/// None when there are none.
+std::optional<std::size_t> most_overlap(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
+                                        const std::function<bool()>& late);
 
 /// Whether the matches `most` exceed those of the same places under another motion by three standard deviations of
 /// their difference, were the places independent.

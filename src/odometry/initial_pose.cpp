@@ -94,7 +94,7 @@ InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bo
     if (doubt && moves && !is_consistent(found.best.score)) {
       try_from(situation, situation.previous, found);  // no motion
     }
-    restarts_due_ = doubt && found.cut;
+    restarts_due_ = doubt && config_.restarts && found.cut;
   }
   if (doubt && config_.restarts && !found.cut && !is_consistent(found.best.score)) {
     deskew(situation.source, {predicted.twist}, compensated_);

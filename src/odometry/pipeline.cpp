@@ -55,7 +55,9 @@ void Pipeline::process(const SweepView& sweep, SweepResult& result) {
     result.status = OdometryStatus::kEmpty;
     result.covariance = unknown_velocity_covariance();
     if (map_.sweeps() > 0) {
-      lose(prepared, predict(prepared).steady(), std::nullopt, result);
+      // A simulated sensor without noise, at rest, sees the sweep before again.
+      const MotionState at_rest{tracker_.state().T_odom_lidar, Vector6d::Zero()};
+      lose(prepared, repeated_ ? at_rest : predict(prepared).steady(), std::nullopt, result);
     }
   } else if (map_.sweeps() == 0) {
     begin_map(prepared, {}, result);

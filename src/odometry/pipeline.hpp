@@ -82,7 +82,7 @@ class Pipeline {
   Trajectory trajectory_;
   Fingerprint fingerprint_;                              // of the last sweep
   bool contradicted_ = false;                            // a sweep since the last accepted one did not fit the map
-  bool repeated_ = false;                                // this sweep is the last one again: a driver that hangs
+  bool repeated_ = false;                                // this sweep is the last one again
   Eigen::Vector3d last_step_ = Eigen::Vector3d::Zero();  // displacement of the last sweep, sensor frame
 };
 

@@ -161,6 +161,28 @@ TEST(Faults, FrozenDriver) {
   EXPECT_EQ(wrong_poses(sweeps), 0U);
 }
 
+TEST(Faults, ASensorWithoutNoiseThatStopsStaysWhereItIs) {
+  std::vector<Recorded> sweeps(drive().begin(), drive().begin() + kMiddle);
+  const Recorded last = sweeps.back();
+  for (std::size_t i = kMiddle; i < 2 * kMiddle; ++i) {
+    sweeps.push_back(data_at(drive()[i], last));
+  }
+  const std::int64_t stood_ns = sweeps.back().sweep.stamp_ns - last.sweep.stamp_ns;
+  for (std::size_t i = kMiddle; i < 2 * kMiddle; ++i) {
+    sweeps.push_back(drive()[i]);
+    sweeps.back().sweep.stamp_ns += stood_ns;
+  }
+  Odometry odometry({});
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    const SweepResult result = odometry.register_sweep(sweeps[i].sweep);
+    const bool again = i >= kMiddle && i < 2 * kMiddle;
+    EXPECT_EQ(result.status == OdometryStatus::kEmpty, again) << i << ' ' << to_string(result.status);
+    const SE3 error = (sweeps[0].truth.inverse() * sweeps[i].truth).inverse() * result.T_odom_lidar;
+    EXPECT_LT(error.translation().norm(), 0.1) << i;
+    EXPECT_TRUE(!again || result.twist.isZero()) << i;
+  }
+}
+
 TEST(Faults, SensorCovered) {
   std::vector<Recorded> sweeps = drive();
   for (std::size_t i = kMiddle; i < kMiddle + 8; ++i) {

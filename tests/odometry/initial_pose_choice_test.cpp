@@ -191,6 +191,17 @@ TEST_F(InitialPoseInAHall, ASearchThatRanOutOfTimeGoesOnWithTheMapInTheNextSweep
   EXPECT_LT((next.T_odom_lidar.inverse() * truth).translation().norm(), 0.1);
 }
 
+TEST_F(InitialPoseInAHall, WithoutRestartsASearchThatRanOutOfTimeBeginsAnew) {
+  const SE3 truth = moved(1.5, -1.0, 0.55);
+  InitialPoseConfig config;
+  config.restarts = false;
+  InitialPoseStage stage = begun(config);
+  std::int64_t now_ns = 0;
+  const Deadline::Clock clock = [&] { return now_ns++; };
+  EXPECT_TRUE(choose(stage, truth, SE3::Identity(), true, Deadline(clock, 1)).coarse_cut);
+  EXPECT_GT(choose(stage, truth, SE3::Identity(), true).coarse_starts, 0);
+}
+
 TEST_F(InitialPoseInAHall, WithoutTimeThePredictionIsTaken) {
   InitialPoseStage stage = begun();
   const Deadline::Clock clock = [] { return std::int64_t{1}; };

@@ -17,7 +17,7 @@ enum class OdometryStatus : std::uint8_t {
   kDegenerate,    ///< registered, but a direction is (nearly) unobservable; the prediction fills it
   kLost,          ///< the pose is a guess; the map is not updated
   kRecovered,     ///< registered again after kLost
-  kEmpty,         ///< no usable point in the sweep; the pose is the prediction
+  kEmpty,         ///< no usable point in the sweep; the pose is the prediction. Or the sweep before again: its pose
 };
 inline constexpr std::size_t kStatusCount = 6;
 

@@ -118,7 +118,7 @@ IcpResult adaptive_icp(const TimedCloud& source, const LocalMap& map, const Moti
       matches.freeze();
       result.frozen = true;
     }
-    if (stride > 1 && (small || late || result.iterations == config.max_iterations / 2)) {
+    if (small || late || result.iterations == config.max_iterations / 2) {
       stride = 1;
       acceleration.restart();
     }

@@ -60,7 +60,7 @@ struct LocalMapConfig {
   double max_planarity = 0.1;       ///< largest smallest-to-middle eigenvalue ratio of a plane
   double min_extent = 0.1;          ///< smallest middle standard deviation of a plane, in voxels
   double range_noise_m = 0.02;      ///< σ_r: standard deviation of a point along its ray
-  double angle_noise_rad = 0.0003;  ///< σ_a: standard deviation of its direction; 0: normals count as exact
+  double angle_noise_rad = 0.0005;  ///< σ_a: standard deviation of its direction; 0: normals count as exact
   double scatter_voxel_m = 0.5;     ///< smallest voxel whose points count as a Gaussian where they are no plane; 0: off
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "odometry/optimum.hpp"
@@ -50,7 +51,8 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
 }
 
 /// Where else than it was found the sensor was or will be, so far apart that between two places a match is still 0.6,
-/// or, where it turns rather than moves, a period apart.
+/// or, where it turns rather than moves, a period apart; and where the sweep before fitted, had the motion been
+/// possible.
 std::vector<MotionState> PathSearch::other_places_on_path(const MotionState& predicted,
                                                           const Registration& found) const {
   const double speed_m_s = predicted.twist.tail<3>().norm();
@@ -63,6 +65,10 @@ std::vector<MotionState> PathSearch::other_places_on_path(const MotionState& pre
     if (elsewhere(T, found.icp.state.T_odom_lidar)) {
       places.push_back({T, predicted.twist});
     }
+  }
+  const std::optional<MotionState> claimed = parts_.tracker.predicted_from_claim();
+  if (claimed && elsewhere(claimed->T_odom_lidar, found.icp.state.T_odom_lidar)) {
+    places.push_back(*claimed);
   }
   return places;
 }

@@ -2,6 +2,7 @@
 #include "odometry/pose_search.hpp"
 
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -139,6 +140,20 @@ TEST_F(PoseSearches, ASweepOfAnotherTimeIsFoundOnThePath) {
   EXPECT_NEAR(x_of(found), 4.0, 0.05);
   EXPECT_FALSE(found.ambiguous);
   EXPECT_EQ(found.starts, 2);
+}
+
+TEST_F(PoseSearches, ASweepIsAlsoLookedForWhereTheOneBeforeFitted) {
+  see_road(12.0, kIrregular);
+  for (const bool claimed : {false, true}) {
+    map_road(kIrregular);
+    tracker_.lose(predicted(), claimed ? std::optional(along(11.0)) : std::nullopt);
+    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
+    const RegistrationParts all = parts();
+    Registration found = at_the_prediction(all);
+    ASSERT_LT(x_of(found), 5.0);
+    PathSearch(all, PoseSearch(all)).improve(predicted(), found);
+    EXPECT_EQ(std::abs(x_of(found) - 12.0) < 0.05, claimed) << "ten periods on is too far on the path";
+  }
 }
 
 TEST_F(PoseSearches, WhereItHasMoreInCommonButDoesNotSettleItMayLieAtEitherPlace) {

@@ -17,7 +17,7 @@ constexpr int kPeriods = 8;
 
 void PathSearch::improve(const MotionState& predicted, Registration& found) const {
   const Deadline looks_end = search_.end().after(PoseSearch::kTimeShare);
-  const std::vector<MotionState> places = other_places_on_path(predicted, found);
+  const std::vector<MotionState> places = other_places(predicted, found);
   if (places.empty()) {
     return;
   }
@@ -53,8 +53,7 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
 /// Where else than it was found the sensor was or will be, so far apart that between two places a match is still 0.6,
 /// or, where it turns rather than moves, a period apart; and where the sweep before fitted, had the motion been
 /// possible.
-std::vector<MotionState> PathSearch::other_places_on_path(const MotionState& predicted,
-                                                          const Registration& found) const {
+std::vector<MotionState> PathSearch::other_places(const MotionState& predicted, const Registration& found) const {
   const double speed_m_s = predicted.twist.tail<3>().norm();
   const double reach_s = std::min(kPeriods * parts_.period_s, SweepOverlap::kReachM / std::max(speed_m_s, 1e-9));
   const double step_s = std::min(parts_.period_s, 2.0 * SweepOverlap::kSigmaM / std::max(speed_m_s, 1e-9));

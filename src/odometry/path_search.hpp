@@ -8,19 +8,19 @@
 
 namespace rilo {
 
-/// Looks earlier and later along the predicted motion for the place where the sweep has most in common with the last
-/// one; the parts and the search outlive it.
+/// Looks earlier and later along the predicted motion, and where the sweep before fitted, for the place where the sweep
+/// has most in common with the last one that was accepted; the parts and the search outlive it.
 class PathSearch {
  public:
   PathSearch(const RegistrationParts& parts, const PoseSearch& search) : parts_(parts), search_(search) {}
 
-  /// Replaces `found` where the sweep has clearly more in common elsewhere on the path and settles there. Where it does
-  /// not settle, `found` is ambiguous.
+  /// Replaces `found` where the sweep has clearly more in common at another of these places and settles there. Where it
+  /// does not settle, `found` is ambiguous.
   void improve(const MotionState& predicted, Registration& found) const;
 
  private:
   SweepOverlap overlap_with_last(const MotionState& predicted, const Registration& found) const;
-  std::vector<MotionState> other_places_on_path(const MotionState& predicted, const Registration& found) const;
+  std::vector<MotionState> other_places(const MotionState& predicted, const Registration& found) const;
 
   const RegistrationParts& parts_;
   const PoseSearch& search_;

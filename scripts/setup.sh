@@ -4,7 +4,7 @@
 #   scripts/setup.sh            to build all but the ROS 1 node, and to test
 #   scripts/setup.sh --minimal  to build the library and the command without the viewer, and no more
 #   scripts/setup.sh --all      also the ROS 1 node, and Slurm with munge (daemons, which Debian starts) for their tests
-#   scripts/setup.sh --lint     also clang-format, clang-tidy, gcovr, shellcheck
+#   scripts/setup.sh --lint     also clang-format, clang-tidy (from PyPI into build/lint-tools), gcovr, shellcheck
 #   scripts/setup.sh --docs     also Doxygen
 #   scripts/setup.sh --bench    also Valgrind, which counts instructions
 #   scripts/setup.sh --browser  also Chromium, which the viewer's page is tested in
@@ -32,7 +32,7 @@ ros1=(libroscpp-dev libtopic-tools-dev libtf2-ros-dev libdiagnostic-updater-dev 
       libsensor-msgs-dev libgeometry-msgs-dev libstd-srvs-dev python3-gencpp python3-genpy ros-geometry-msgs
       ros-std-msgs python3-roslaunch python3-rosbag python3-nav-msgs python3-sensor-msgs python3-diagnostic-msgs
       python3-tf2-msgs python3-std-srvs)
-lint=(clang-format clang-tidy gcovr shellcheck)
+lint=(clang-format clang-tidy gcovr shellcheck python3-venv)
 docs=(doxygen)
 bench=(valgrind)
 browser=(chromium)
@@ -99,21 +99,28 @@ for package in "${wanted[@]}"; do
   grep -qx installed <<<"$status" || missing+=("$package")
 done
 
-# The versions of tests/witnesses/requirements.txt, a copy of which says that they are there.
-install_witnesses() {
-  local folder=build/witnesses requirements=tests/witnesses/requirements.txt
+# install_from_pypi FOLDER REQUIREMENTS ELSE: an environment with these versions. A copy of the requirements says that they
+# are there. Without them the work goes on; ELSE says how.
+install_from_pypi() {
+  local folder="$1" requirements="$2"
   ! cmp -s "$requirements" "$folder/installed.txt" || return 0
   echo "Installing into $folder: $(grep -cE '^[^#]+==' "$requirements") packages from PyPI"
   python3 -m venv --clear "$folder"
   if ! "$folder/bin/pip" install --quiet --disable-pip-version-check --requirement "$requirements"; then
-    echo "setup.sh: pip could not install $requirements into $folder; tests/witnesses will be skipped" >&2
+    echo "setup.sh: pip could not install $requirements into $folder; $3" >&2
     return 0
   fi
   cp "$requirements" "$folder/installed.txt"
 }
 
+install_pypi_parts() {
+  ! $with_witnesses ||
+    install_from_pypi build/witnesses tests/witnesses/requirements.txt "tests/witnesses will be skipped"
+  ! $with_lint || install_from_pypi build/lint-tools scripts/lint_requirements.txt "Debian's clang-tidy will do, in twice the time"
+}
+
 if [ ${#missing[@]} -eq 0 ]; then
-  ! $with_witnesses || install_witnesses
+  install_pypi_parts
   exit 0
 fi
 
@@ -134,4 +141,4 @@ echo "Installing: ${missing[*]}"
 ! $with_arm || "${as_root[@]}" dpkg --add-architecture arm64
 apt update || echo "setup.sh: apt-get update failed; trying with the package lists at hand" >&2
 apt install --yes --no-install-recommends "${missing[@]}" || die "apt-get could not install: ${missing[*]}"
-! $with_witnesses || install_witnesses
+install_pypi_parts

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -112,7 +113,7 @@ void leave_out_missing(const BenchFlags& flags, BenchPlan& plan) {
                                                "; name the folder that they lie in with --root");
   }
   if (!missing.empty() && !flags.order.run.quiet) std::cerr << "skipped, as they do not exist: " << missing << '\n';
-  plan.sequences = there;
+  plan.sequences = std::move(there);
 }
 
 // Of the plan and of the command line, which goes before it.
@@ -131,7 +132,7 @@ void add_peers(BenchFlags& flags, BenchPlan& plan) {
   };
   std::copy_if(plan.peers.begin(), plan.peers.end(), std::back_inserter(peers),
                [&](const BenchPeer& peer) { return !named(peer.name); });
-  plan.peers = peers;
+  plan.peers = std::move(peers);
   give_peers(plan);
   if (!flags.peer_figures.empty()) plan.peer_figures = flags.peer_figures;
   if (!plan.peer_figures.empty()) flags.order.peer_figures = read_peer_figures(plan.peer_figures);

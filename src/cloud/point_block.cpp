@@ -117,6 +117,7 @@ RILO_WIDE void transform(const SE3& T, const PointBlock& p, PlaceBlock& places) 
 }
 
 RILO_WIDE void add_derivatives(const PoseDerivative& derivative, const PlaceBlock& places, PointBlock& to) {
+  // A copy, which what is written cannot alias. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
   const PoseDerivative d = derivative;
   for (std::size_t i = 0; i < kSize; ++i) {
     const double x = places.x[i] - d.origin.x();

@@ -161,7 +161,7 @@ void AtomicFile::give_name() {
   const fs::path file = temporary();
   for (fs::path name = target_;; name = temporary_name(target_)) {
     if (::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
-      if (name != target_) temporary_ = name;
+      if (name != target_) temporary_ = std::move(name);
       return;
     }
     if (errno != EEXIST) fail("cannot put the finished file in place", errno);

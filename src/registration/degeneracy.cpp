@@ -32,27 +32,26 @@ Eigen::Matrix3d PoseDegeneracy::translation_evidence() const {
 }
 
 PoseDegeneracy analyse_degeneracy(const Matrix6d& H, const Matrix6d& noise) {
-  PoseDegeneracy result;
   const double translation = H.bottomRightCorner<3, 3>().trace();
   if (!(translation > 0.0) || !H.allFinite()) {
-    return result;
+    return {};
   }
-  PoseDegeneracy about;
-  about.centre_m = centre_of(H);
-  const Matrix6d to_centre = about.to_sensor();
+  PoseDegeneracy result;
+  result.centre_m = centre_of(H);
+  const Matrix6d to_centre = result.to_sensor();
   const double rotation = (to_centre.transpose() * H * to_centre).topLeftCorner<3, 3>().trace();
   if (!(rotation > 0.0)) {
-    return result;
+    return {};
   }
-  about.lever_arm_m = std::sqrt(rotation / translation);
-  const Matrix6d S = about.to_sensor();
+  result.lever_arm_m = std::sqrt(rotation / translation);
+  const Matrix6d S = result.to_sensor();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(S.transpose() * (H - noise) * S);
   const double largest = solver.eigenvalues()[5];
-  if (largest > 0.0) {
-    result = about;
-    result.relative_eigenvalues = solver.eigenvalues().cwiseMax(0.0) / largest;
-    result.directions = solver.eigenvectors();
+  if (!(largest > 0.0)) {
+    return {};
   }
+  result.relative_eigenvalues = solver.eigenvalues().cwiseMax(0.0) / largest;
+  result.directions = solver.eigenvectors();
   return result;
 }
 

@@ -15,9 +15,9 @@ namespace {
 using Json = nlohmann::json;
 using Places = std::vector<std::size_t>;
 
-constexpr std::size_t kColours = 6;  // --r0 … in the style sheet
+constexpr std::size_t kColourCount = 6;  // --r0 … in the style sheet
 
-std::string swatch(std::size_t place) { return fmt::format("<i class=\"swatch r{}\"></i>", place % kColours); }
+std::string swatch(std::size_t place) { return fmt::format("<i class=\"swatch r{}\"></i>", place % kColourCount); }
 
 std::string statuses(const RunReport& run) {
   std::string text;

@@ -18,7 +18,7 @@ namespace {
 std::unique_ptr<Viewer> announced_viewer(const ViewInfo& info, const ViewOptions& options) {
   try {
     auto viewer = open_viewer(info, options);
-    std::cerr << "rilo: viewer at " << viewer->url() << std::endl;
+    std::cerr << "rilo: viewer at " << viewer->url() << '\n' << std::flush;
     return viewer;
   } catch (const IoError& error) {
     throw RunError(RunErrorKind::kUsage, error.what());

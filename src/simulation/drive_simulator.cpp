@@ -30,7 +30,7 @@ constexpr double kIntensityNoise = 0.03;
 // asphalt fades out near 60 m, walls do not.
 constexpr double kFaintest = 0.02;
 
-const DriveConfig& checked(const DriveConfig& config) {
+DriveConfig checked(DriveConfig config) {
   config.validate();
   return config;
 }

@@ -154,7 +154,7 @@ TEST(ReportCommand, ExperimentsWithSensitivity) {
                          {"cells_run", 4},  {"interrupted", true}};
   results["cells"] = {cell("defaults", nlohmann::json::array(), 1.0), cell("low", {"coarse.sigma=0.5"}, 2.0),
                       cell("high", {"coarse.sigma=1.5"}, 3.0), cell("off", {"coarse.enabled=false"}, 4.0)};
-  const std::string file = folder.write("results.json", results.dump());
+  folder.write("results.json", results.dump());
   rilo_succeeds({"report", "Mine=" + folder.path().string(), "-o", folder / "page.html"});
   const std::string html = slurp(folder / "page.html");
   EXPECT_THAT(html, HasSubstr("<h2>Mine</h2>"));

@@ -80,7 +80,7 @@ TEST(Jacobian, CoarseStepIsTheGradientOfTheMahalanobisCost) {
   config.voxel_m = 0.3;
   const auto points = room_source(SE3::Identity(), 5).points;
   const DistributionCloud target = make_distribution_cloud(points, config);
-  const DistributionCloud source = target;
+  const DistributionCloud& source = target;
   const SE3 T = pose(twist(2e-5, -3e-5, 4e-5, 1e-4, 1.2e-4, -8e-5));
   std::vector<std::uint32_t> matches;
   const CoarseSums sums = linearise(source, target, T, 0.3, config, matches);

@@ -48,14 +48,14 @@ class KeyVisitor {
     Enum value;
   };
   template <typename Enum>
-  void choice(const KeyInfo& key, Enum& member, std::vector<Word<Enum>> words);
+  void choice(const KeyInfo& key, Enum& member, const std::vector<Word<Enum>>& words);
 };
 
 /// Shows every key of `config`, with its member.
 void visit_keys(OdometryConfig& config, KeyVisitor& keys);
 
 template <typename Enum>
-void KeyVisitor::choice(const KeyInfo& key, Enum& member, std::vector<Word<Enum>> words) {
+void KeyVisitor::choice(const KeyInfo& key, Enum& member, const std::vector<Word<Enum>>& words) {
   KeyChoice choice;
   std::vector<Enum> values;
   for (const Word<Enum>& word : words) {

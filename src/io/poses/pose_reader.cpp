@@ -27,7 +27,7 @@ class Table {
   std::optional<std::string_view> next() {
     while (const auto line = lines_.next()) {
       const std::string_view text = detail::trimmed(*line);
-      if (!text.empty() && text[0] != '#') return *line;
+      if (!text.empty() && text[0] != '#') return line;
     }
     return std::nullopt;
   }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "io/io_test_util.hpp"
 #include "io/ros/ros_bytes.hpp"
@@ -135,7 +136,7 @@ TEST(PointCloud2Test, RefusesWhatContradictsItself) {
   refused(bad, {"field 'z' at byte 9 to 13", "point_step 12"});
   bad.fields[2].offset = 0xFFFFFFFF;
   refused(bad, {"field 'z'"});
-  bad = good;
+  bad = std::move(good);
   bad.fields[2].name = std::string("w");
   refused(bad, {"x y w", "x, y and z"});
 }

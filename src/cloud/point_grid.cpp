@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 
 namespace rilo {
 
@@ -16,30 +15,31 @@ bool closer(const Neighbour& a, const Neighbour& b) {
 }
 }  // namespace
 
+// The points of a cell stay in their order.
 void PointGrid::build(const std::vector<Eigen::Vector3f>& points) {
   points_ = points;
-  std::vector<std::uint64_t> keys(points_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    keys[i] = voxel_key(voxel_of(points_[i], inverse_));
-  }
-  order_.resize(points_.size());
-  std::iota(order_.begin(), order_.end(), 0U);
-  std::sort(order_.begin(), order_.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
   cells_.assign(std::bit_ceil(points_.size() * 2 + 16), Cell{});
   const std::size_t mask = cells_.size() - 1;
-  for (std::uint32_t begin = 0; begin < order_.size();) {
-    const std::uint64_t key = keys[order_[begin]];
-    std::uint32_t end = begin + 1;
-    while (end < order_.size() && keys[order_[end]] == key) {
-      ++end;
-    }
+  std::vector<std::size_t> slots(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const std::uint64_t key = voxel_key(voxel_of(points_[i], inverse_));
     std::size_t slot = mix_key(key) & mask;
-    while (cells_[slot].begin != cells_[slot].end) {
+    while (cells_[slot].end != 0 && cells_[slot].key != key) {
       slot = (slot + 1) & mask;
     }
-    cells_[slot] = {key, begin, end};
-    begin = end;
+    cells_[slot].key = key;
+    ++cells_[slot].end;  // for now their number
+    slots[i] = slot;
+  }
+  std::uint32_t next = 0;
+  for (Cell& cell : cells_) {
+    cell.begin = next;
+    next += cell.end;
+    cell.end = cell.begin;
+  }
+  order_.resize(points_.size());
+  for (std::uint32_t i = 0; i < order_.size(); ++i) {
+    order_[cells_[slots[i]].end++] = i;
   }
 }
 

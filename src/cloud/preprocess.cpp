@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -176,7 +177,9 @@ std::size_t Preprocessor::find_valid(const SweepView& sweep, bool timed) {
   const std::size_t count = sweep.points.size();
   valid_.resize(count);
   chunks_.assign(chunk_count(count), {});
-  const auto min2 = static_cast<float>(config_.min_range_m * config_.min_range_m);
+  // (0, 0, 0) stands for no return.
+  const float min2 =
+      std::max(static_cast<float>(config_.min_range_m * config_.min_range_m), std::numeric_limits<float>::min());
   const auto max2 = static_cast<float>(config_.max_range_m * config_.max_range_m);
   for_fixed_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     PointBlock p;

@@ -83,6 +83,14 @@ TEST(PreprocessTest, DropsWhatIsNotFiniteOrOutOfRange) {
   EXPECT_FALSE(prepared.source.timed());
 }
 
+TEST(PreprocessTest, NoReturnIsNoPointWithoutALeastRangeEither) {
+  PreprocessConfig config = wide_config();
+  config.min_range_m = 0.0;
+  Sweep sweep;
+  sweep.points = {{0.0F, 0.0F, 0.0F}, {0.01F, 0.0F, 0.0F}, {-0.0F, 0.0F, 0.0F}};
+  EXPECT_EQ(Preprocessor(config).prepare(sweep).valid_points, 1U);
+}
+
 TEST(PreprocessTest, EmptySweepAndOutOfRangeSweep) {
   Preprocessor preprocessor{PreprocessConfig{}};
   Sweep sweep;

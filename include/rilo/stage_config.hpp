@@ -12,7 +12,7 @@ struct PreprocessConfig {
   int source_points = 20000;     ///< target size of the source cloud S: its voxel adapts to scene and sensor
   double min_voxel_m = 0.1;      ///< smallest voxel of the source cloud
   double max_voxel_m = 1.0;      ///< largest voxel of the source cloud
-  double map_voxel_ratio = 0.6;  ///< voxel size of the map cloud relative to that of the source cloud
+  double map_voxel_ratio = 0.8;  ///< voxel size of the map cloud relative to that of the source cloud
 };
 
 /// Density-filtered distribution-to-distribution registration (III-A).

@@ -21,7 +21,7 @@ void add_preprocess(KeyVisitor& keys, PreprocessConfig& c) {
   keys.real({"max_voxel_m", "m", "largest voxel of the source cloud; at least min_voxel_m", kNotTuned}, c.max_voxel_m,
             0.01, 10);
   keys.real({"map_voxel_ratio", "", "voxel size of the map cloud relative to that of the source cloud",
-             "experiment: source cloud as map cloud"},
+             "experiment: preprocess.map_voxel_ratio 0.6 to 0.8"},
             c.map_voxel_ratio, 0.1, 1);
 }
 

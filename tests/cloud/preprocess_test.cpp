@@ -210,7 +210,7 @@ TEST(PreprocessTest, TheVoxelKeepsWithinItsLimits) {
   const Sweep sweep = room(20.0F, 5.0F, 30000, 6);
   std::set<std::uint64_t> map_voxels;
   for (const Eigen::Vector3f& p : sweep.points) {
-    map_voxels.insert(voxel_key(voxel_of(p, 1.0 / (0.6 * 0.5))));
+    map_voxels.insert(voxel_key(voxel_of(p, 1.0 / (config.map_voxel_ratio * 0.5))));
   }
   for (int i = 0; i < 3; ++i) {
     const PreparedSweep& prepared = preprocessor.prepare(sweep);

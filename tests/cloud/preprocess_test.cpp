@@ -66,7 +66,8 @@ TEST(PreprocessTest, OneSparseSweepDoesNotMakeTheNextExpensive) {
   for (int i = 0; i < 5; ++i) preprocessor.prepare(usual);
   const std::size_t before = preprocessor.prepare(usual).source.size();
   preprocessor.prepare(room(20.0F, 4.0F, 300, 4));
-  EXPECT_LT(preprocessor.prepare(usual).source.size(), 3 * before / 2);
+  // The sparse one shrinks the voxel by 1.15, which is 1.32 times the points, and the one before by up to 1.07.
+  EXPECT_LT(preprocessor.prepare(usual).source.size(), 17 * before / 10);
 }
 
 TEST(PreprocessTest, DropsWhatIsNotFiniteOrOutOfRange) {

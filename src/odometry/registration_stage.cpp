@@ -1,8 +1,10 @@
 #include "odometry/registration_stage.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "odometry/health.hpp"
+#include "odometry/optimum.hpp"
 #include "odometry/path_search.hpp"
 #include "odometry/pose_search.hpp"
 #include "odometry/second_sweep.hpp"
@@ -24,6 +26,16 @@ Registration held(const RegistrationParts& parts, const PoseSearch& search, cons
   again.cut = found.cut;
   again.ambiguous = found.ambiguous;
   return again;
+}
+/// A sweep of another time lies where no velocity of the sensor led to, and what its pose implies bends it: once more
+/// from there with the velocity before, kept where the sweep then fits as usual.
+void retry_as_before(const RegistrationParts& parts, const PoseSearch& search, Registration& found) {
+  const MotionState start{found.T_init, parts.tracker.trusted().twist};
+  Registration other = search.to_map(start, parts.tracker.prior(start), parts.sigma_th_m, search.icp(), search.end());
+  found.starts = other.starts = found.starts + 1;
+  if (settled(other.icp) && !parts.initial_pose.suspicious(other.quality)) {
+    found = std::move(other);
+  }
 }
 }  // namespace
 
@@ -48,6 +60,9 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
     if (!parts.initial_pose.suspicious(usual.quality) && !newly_degenerate(parts, usual)) {
       return usual;
     }
+  }
+  if (refuted && parts.initial_pose.suspicious(found.quality) && !search.end().passed()) {
+    retry_as_before(parts, search, found);
   }
   if (parts.initial_pose.suspicious(found.quality) || newly_degenerate(parts, found)) {
     found.cut = search.end().passed();

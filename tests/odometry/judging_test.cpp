@@ -197,6 +197,21 @@ TEST(SweepJudge, ASweepThatSuddenlySeesADirectionMuchLessDoesNotBelongThere) {
   EXPECT_EQ(status(17.0, 0.0111), OdometryStatus::kOk);
 }
 
+// A handheld sweep after some in reverse order, 4.5° off: it shows every direction, and lies beside the map.
+TEST(SweepJudge, ASweepThatFitsAThirdAsWellAsUsualDoesNotBelongThere) {
+  const SweepJudge judge(kHealth);
+  const auto status = [&](double quality, double eigenvalue, bool was_lost = false) {
+    Registration registration = fitting();
+    registration.quality = quality;
+    registration.icp.degeneracy.relative_eigenvalues[0] = eigenvalue;
+    return judge.judge(sweep_of(10.0), registration, MotionVerdict::kPossible, {10, 0.8, 30.0, was_lost}).status;
+  };
+  EXPECT_EQ(status(10.1, 0.5), OdometryStatus::kOk);
+  EXPECT_EQ(status(9.9, 0.5), OdometryStatus::kLost);
+  EXPECT_EQ(status(9.9, 0.004), OdometryStatus::kDegenerate);
+  EXPECT_EQ(status(9.9, 0.5, true), OdometryStatus::kRecovered);
+}
+
 TEST(SweepJudge, AMotionThatIsImpossibleIsAClaim) {
   const SweepJudge judge(kHealth);
   const auto after = [&](MotionVerdict motion) {

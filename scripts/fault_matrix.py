@@ -10,7 +10,8 @@ PLAN is a JSON object, a drive a key:
 
   folder   velodyne/*.bin (float32 x y z intensity); times_pt/*.bin, times.txt and meta.json where there are such
   first    first sweep that is used (0); count: so many (60)
-  stride   fault `slow` is every stride-th sweep of the whole drive; without it the drive does not have that fault
+  stride   fault `slow` is every stride-th sweep of the whole drive, which needs `truth`; without it the drive does not
+           have that fault
   truth    poses of all sweeps of the folder, LiDAR frame, KITTI form, at the instant of the poses that the program
            gives. Without it the run without a fault is the truth: for real drives whose truth is noisier than that
   times    times.txt, where it does not lie in the folder
@@ -169,6 +170,9 @@ def main():
         plan = json.load(text)
     base = os.path.dirname(os.path.abspath(options.plan))
     drives = [Drive(n, e, base) for n, e in plan.items() if not options.drives or n in options.drives.split(",")]
+    for drive in drives:
+        if drive.stride and not drive.truth_file:
+            sys.exit(f"{options.plan}: {drive.name} has a stride and no truth; give `truth`, poses of all its sweeps")
     faults = [f for f in FAULTS if f != "none" and (not options.faults or f in options.faults.split(","))]
     rows = []
     with ProcessPoolExecutor(options.jobs) as pool:

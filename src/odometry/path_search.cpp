@@ -35,12 +35,10 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   if (!clearly_more(overlap.matches(best, last), of_found)) {
     return;
   }
-  const auto from = [&](const MotionState& start) {
-    return search_.to_map(start, parts_.tracker.prior(start), parts_.sigma_th_m, search_.icp(), search_.end());
-  };
-  Registration other = from(best);
+  Registration other = search_.from(best);
   if (!settled(other.icp)) {
-    other = from(other.icp.state);  // it may have come a long way, since the sensor has turned or sped up meanwhile
+    // It may have come a long way, since the sensor has turned or sped up meanwhile.
+    other = search_.from(other.icp.state);
   }
   found.starts = other.starts = found.starts + 1;
   if (settled(other.icp) && clearly_more(overlap.matches(other.icp.state, last), of_found)) {

@@ -27,6 +27,10 @@ Registration PoseSearch::to_map(const MotionState& start, const MotionPrior& pri
   return found;
 }
 
+Registration PoseSearch::from(const MotionState& start) const {
+  return to_map(start, parts_.tracker.prior(start), parts_.sigma_th_m, icp_, end_);
+}
+
 void PoseSearch::rate(Registration& found, const LocalMap& map) const {
   found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, map);
   found.quality = quality_of(found.icp, found.score, parts_.prepared.source.size());

@@ -27,11 +27,11 @@ Registration held(const RegistrationParts& parts, const PoseSearch& search, cons
   again.ambiguous = found.ambiguous;
   return again;
 }
+
 /// A sweep of another time lies where no velocity of the sensor led to, and what its pose implies bends it: once more
 /// from there with the velocity before, kept where the sweep then fits as usual.
 void retry_as_before(const RegistrationParts& parts, const PoseSearch& search, Registration& found) {
-  const MotionState start{found.T_init, parts.tracker.trusted().twist};
-  Registration other = search.to_map(start, parts.tracker.prior(start), parts.sigma_th_m, search.icp(), search.end());
+  Registration other = search.from({found.T_init, parts.tracker.trusted().twist});
   found.starts = other.starts = found.starts + 1;
   if (settled(other.icp) && !parts.initial_pose.suspicious(other.quality)) {
     found = std::move(other);
@@ -48,12 +48,12 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
     initial = {init.T_odom_lidar, parts.tracker.implied_twist(init.T_odom_lidar)};
     refuted = initial;
   }
-  const MotionPrior prior = parts.tracker.prior(refuted);
   if (parts.map.sweeps() == 1) {
-    return SecondSweep(parts, search).registered(initial, prior);
+    return SecondSweep(parts, search).registered(initial, parts.tracker.prior(refuted));
   }
-  Registration found =
-      search.to_map(initial, prior, parts.sigma_th_m, refuted ? search.icp() : parts.config.icp, search.end());
+  Registration found = refuted ? search.from(initial)
+                               : search.to_map(initial, parts.tracker.prior(std::nullopt), parts.sigma_th_m,
+                                               parts.config.icp, search.end());
   if (parts.tracker.lost() && !parts.contradicted) {
     // The quality within the wide gate is not that within the usual one, and nothing speaks for another place.
     Registration usual = held(parts, search, found);
@@ -61,7 +61,9 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
       return usual;
     }
   }
-  if (refuted && parts.initial_pose.suspicious(found.quality) && !search.end().passed()) {
+  // Where the sensor cannot have moved so, the velocity before is what it started with.
+  const bool implied = refuted && initial.twist != parts.tracker.trusted().twist;
+  if (implied && parts.initial_pose.suspicious(found.quality) && !search.end().passed()) {
     retry_as_before(parts, search, found);
   }
   if (parts.initial_pose.suspicious(found.quality) || newly_degenerate(parts, found)) {

@@ -11,7 +11,7 @@ namespace {
 constexpr int kMostBeginnings = 10;           // a robot may start where the place shows no better second sweep
 constexpr double kShrunk = 1.0 / 3.0;         // of the last median range: doors and passing lorries take less at once
 constexpr double kFitsWorse = 0.9;            // of the usual quality: right sweeps hardly ever fit that much worse
-constexpr double kFitsMuchWorse = 1.0 / 3.0;  // of it: most sweeps that fit that much worse are wrong
+constexpr double kFitsMuchWorse = 1.0 / 3.0;  // of the usual quality: most such sweeps are wrong, whatever they see
 constexpr double kSeesLess = 0.25;  // of the usual least eigenvalue: right sweeps that fit worse hardly ever do
 /// Out of time while the points still moved by more than that: each update leaves about as much as it was. (With 0.03 m
 /// hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are.)
@@ -27,8 +27,8 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.score = registration.score;
   evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
   evidence.ambiguous = registration.ambiguous;
-  // After a loss a place that has changed must be taken as it is; so must one that shows a direction no longer.
   const bool sees_less = registration.icp.degeneracy.relative_eigenvalues[0] < kSeesLess * usual_eigenvalue_;
+  // After a loss a place that has changed must be taken as it is; so must one that shows a direction no longer.
   evidence.displaced = !before.was_lost && !is_degenerate(registration.icp, config_) &&
                        registration.quality < (sees_less ? kFitsWorse : kFitsMuchWorse) * before.usual_quality;
   evidence.map_sweeps = before.map_sweeps;

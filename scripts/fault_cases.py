@@ -118,6 +118,19 @@ def slow(drive, sweeps, middle):
     return [Entry(drive, i, drive.stamps[i]) for i in numbers]
 
 
+def stretches(drive, sweeps, middle):
+    """Sweeps that somebody selected: a hundred in stretches of the drive in random order, stamped evenly; then its end."""
+    if not drive.truth_file:
+        return None
+    rng = np.random.default_rng(1)
+    end = list(range(len(drive.files)))[-20:]
+    numbers = []
+    while len(numbers) < 100:
+        begin = rng.integers(0, end[0])
+        numbers += range(begin, min(begin + rng.integers(1, 11), end[0]))
+    return [Entry(drive, i, 0.1 * k) for k, i in enumerate(numbers[:100] + end)]
+
+
 def cover(points, times):
     """A cloth over the sensor: everything within 2 m, nothing of the place is left."""
     azimuth = np.arctan2(points[:, 1], points[:, 0])
@@ -152,6 +165,7 @@ FAULTS = {
     "empty": edited(lambda points, times: (points[:0], times[:0])),
     "half": edited(lambda points, times: (points[: len(points) // 2], times[: len(points) // 2])),
     "slow": slow,
+    "stretches": stretches,
 }
 
 

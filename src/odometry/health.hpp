@@ -17,7 +17,7 @@ struct Evidence {
   bool cut_off = false;         ///< the registration ran out of time far from its end
   bool possible_motion = true;  ///< a sensor can have moved to the pose
   bool ambiguous = false;       ///< it may as well lie elsewhere
-  bool displaced = false;       ///< it fits worse than sweeps that belong there do
+  bool displaced = false;       ///< it fits worse than sweeps that belong there do, or places beside it as well
   bool second_sweep = false;    ///< of the map: there is no usual score to judge it by
 };
 

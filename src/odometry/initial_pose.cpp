@@ -16,9 +16,9 @@ constexpr double kDoubtfulShare = 0.02;  // of a score below the alarm in the us
 // What a coarse result of the second sweep reaches of the score of the first one on its own map where it is right: 0.83
 // to 1.14. Wrong ones reach it along a road, where other starts follow.
 constexpr double kOwnShare = 0.8;
-constexpr std::size_t kSinglePoints = 5000;  // for candidates that differ by few of them
-constexpr double kSearchSigmaM = 0.3;        // more tolerant than the score: it only has to find the basin
-constexpr double kSearchStepM = 0.5;         // within the reach of the coarse stage
+constexpr std::size_t kManyPoints = 5000;  // where few of them make the difference
+constexpr double kSearchSigmaM = 0.3;      // more tolerant than the score: it only has to find the basin
+constexpr double kSearchStepM = 0.5;       // within the reach of the coarse stage
 constexpr double kSearchStepRad = 0.1;
 constexpr double kSearchShare = 0.6;      // of the time left; the coarse stage from what was found needs the rest
 constexpr std::size_t kSearchStarts = 4;  // the cost of each is one registration
@@ -137,7 +137,7 @@ double InitialPoseStage::candidate_score(const Situation& situation, const SE3& 
   if (!situation.single) {
     return score(situation.source, {T, twist}, situation.map);
   }
-  return map_score(deskew_picked(situation.source, {twist}, kSinglePoints), situation.map, T, config_.score_sigma_m);
+  return map_score(deskew_picked(situation.source, {twist}, kManyPoints), situation.map, T, config_.score_sigma_m);
 }
 
 bool InitialPoseStage::is_consistent(double score) const {
@@ -155,6 +155,14 @@ std::vector<SE3> InitialPoseStage::restarts(const SE3& centre, const LocalMap& m
 double InitialPoseStage::score(const TimedCloud& source, const MotionState& state, const LocalMap& map) const {
   const auto points = deskew_picked(source, state.motion(), static_cast<std::size_t>(config_.score_points));
   return map_score(points, map, state.T_odom_lidar, config_.score_sigma_m);
+}
+
+bool InitialPoseStage::stands_out(const TimedCloud& source, const MotionState& state, const LocalMap& map) const {
+  const auto with_points = [&](std::size_t count) {
+    const auto points = deskew_picked(source, state.motion(), count);
+    return rilo::stands_out(points, map, state.T_odom_lidar, config_.score_sigma_m);
+  };
+  return with_points(static_cast<std::size_t>(config_.score_points)) || with_points(kManyPoints);
 }
 
 void InitialPoseStage::learn(double score, std::optional<double> quality) {

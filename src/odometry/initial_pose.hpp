@@ -67,6 +67,9 @@ class InitialPoseStage {
   /// Map score of a registered sweep.
   double score(const TimedCloud& source, const MotionState& state, const LocalMap& map) const;
 
+  /// Whether a registered sweep fits the map rather than its surroundings; see rilo::stands_out().
+  bool stands_out(const TimedCloud& source, const MotionState& state, const LocalMap& map) const;
+
   /// Whether a registered sweep fits so much worse than usual that it may have been taken at another time than its
   /// stamp; see quality_of().
   bool suspicious(double quality) const;

@@ -168,6 +168,9 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
       .first_map_ms = budget_.ms(Work::kInsert, static_cast<double>(map_.first_cloud().size()) + map_points)};
   Registration registration = fine_registration(parts, predicted, init);
   const IcpResult& icp = registration.icp;
+  const bool new_first_map = registration.first && registration.first->map;
+  registration.stands_out =
+      initial_pose_.stands_out(prepared.source, icp.state, new_first_map ? *registration.first->map : map_.map());
   record(icp, result.stats);
   result.stats.coarse_cut = result.stats.coarse_cut || registration.cut;
   if (in_doubt()) {

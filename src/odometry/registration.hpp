@@ -27,6 +27,7 @@ struct Registration {
   double sigma_th_m = 0;            ///< the registration was weighted with
   double score = 0;                 ///< map score at the registered pose
   double quality = 0;               ///< see quality_of()
+  bool stands_out = true;           ///< over the places beside it; see rilo::stands_out()
   bool ambiguous = false;           ///< it may as well lie elsewhere
   int starts = 1;                   ///< how many it was chosen from
   bool cut = false;                 ///< no time for further ones

@@ -29,8 +29,9 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.ambiguous = registration.ambiguous;
   const bool sees_less = registration.icp.degeneracy.relative_eigenvalues[0] < kSeesLess * usual_eigenvalue_;
   // After a loss a place that has changed must be taken as it is; so must one that shows a direction no longer.
-  evidence.displaced = !before.was_lost && !is_degenerate(registration.icp, config_) &&
-                       registration.quality < (sees_less ? kFitsWorse : kFitsMuchWorse) * before.usual_quality;
+  const bool fits_worse = !before.was_lost && !is_degenerate(registration.icp, config_) &&
+                          registration.quality < (sees_less ? kFitsWorse : kFitsMuchWorse) * before.usual_quality;
+  evidence.displaced = fits_worse || !registration.stands_out;
   evidence.map_sweeps = before.map_sweeps;
   evidence.usual_score = before.usual_score;
   evidence.was_lost = before.was_lost;

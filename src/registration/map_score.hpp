@@ -18,6 +18,13 @@ namespace rilo {
 double map_score(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& T_odom_lidar,
                  double sigma_m, std::size_t level = 0);
 
+/// Whether the map shows `points` at `T_odom_lidar` rather than at one of four places a metre beside it: left, right,
+/// front and back. What the pose explains and the place does not, in terms of map_score(), must be twice what the place
+/// explains and the pose does not, or that be little. A registration finds a pose that fits a map of other places, too;
+/// but then the places beside it fit as many other points. True where no point has a plane.
+bool stands_out(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& T_odom_lidar,
+                double sigma_m);
+
 /// At most `count` points of `points`, evenly spread over their order.
 std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& points, std::size_t count);
 

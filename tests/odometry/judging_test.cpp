@@ -212,6 +212,21 @@ TEST(SweepJudge, ASweepThatFitsAThirdAsWellAsUsualDoesNotBelongThere) {
   EXPECT_EQ(status(9.9, 0.5, true), OdometryStatus::kRecovered);
 }
 
+// Sweeps of many places in one map: each finds a pose that fits it, and the next ones that pose.
+TEST(SweepJudge, ASweepThatPlacesBesideExplainAsWellIsLost) {
+  const SweepJudge judge(kHealth);
+  Registration registration = fitting();
+  const auto status = [&](bool was_lost) {
+    return judge.judge(sweep_of(10.0), registration, MotionVerdict::kPossible, {10, 0.8, 0.0, was_lost}).status;
+  };
+  EXPECT_EQ(status(false), OdometryStatus::kOk);
+  registration.stands_out = false;
+  EXPECT_EQ(status(false), OdometryStatus::kLost);
+  EXPECT_EQ(status(true), OdometryStatus::kLost);
+  registration.icp.degeneracy.relative_eigenvalues[0] = 0.001;
+  EXPECT_EQ(status(false), OdometryStatus::kLost);
+}
+
 TEST(SweepJudge, AMotionThatIsImpossibleIsAClaim) {
   const SweepJudge judge(kHealth);
   const auto after = [&](MotionVerdict motion) {

@@ -12,6 +12,7 @@ constexpr int kMostBeginnings = 10;           // a robot may start where the pla
 constexpr double kShrunk = 1.0 / 3.0;         // of the last median range: doors and passing lorries take less at once
 constexpr double kFitsWorse = 0.9;            // of the usual quality: right sweeps hardly ever fit that much worse
 constexpr double kFitsMuchWorse = 1.0 / 3.0;  // of the usual quality: most such sweeps are wrong, whatever they see
+constexpr double kFoundAgain = 0.7;           // of the usual score: below it most places that a search finds are wrong
 constexpr double kSeesLess = 0.25;  // of the usual least eigenvalue: right sweeps that fit worse hardly ever do
 /// Out of time while the points still moved by more than that: each update leaves about as much as it was. (With 0.03 m
 /// hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are.)
@@ -31,7 +32,10 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   // After a loss a place that has changed must be taken as it is; so must one that shows a direction no longer.
   const bool fits_worse = !before.was_lost && !is_degenerate(registration.icp, config_) &&
                           registration.quality < (sees_less ? kFitsWorse : kFitsMuchWorse) * before.usual_quality;
-  evidence.displaced = fits_worse || !registration.stands_out;
+  // A search looks at so many places that one of them fits by chance; that two sweeps agree on one is none.
+  const bool found_by_chance =
+      before.was_lost && motion != MotionVerdict::kJump && registration.score < kFoundAgain * before.usual_score;
+  evidence.displaced = fits_worse || found_by_chance || !registration.stands_out;
   evidence.map_sweeps = before.map_sweeps;
   evidence.usual_score = before.usual_score;
   evidence.was_lost = before.was_lost;

@@ -227,6 +227,20 @@ TEST(SweepJudge, ASweepThatPlacesBesideExplainAsWellIsLost) {
   EXPECT_EQ(status(false), OdometryStatus::kLost);
 }
 
+TEST(SweepJudge, AfterALossASweepMustFitNearlyAsUsualUnlessTwoAgree) {
+  const SweepJudge judge(kHealth);
+  const auto status = [&](double score, bool was_lost, MotionVerdict motion = MotionVerdict::kPossible) {
+    Registration registration = fitting();
+    registration.score = score;
+    return judge.judge(sweep_of(10.0), registration, motion, {10, 0.8, 0.0, was_lost}).status;
+  };
+  EXPECT_EQ(status(0.57, true), OdometryStatus::kRecovered);
+  EXPECT_EQ(status(0.55, true), OdometryStatus::kLost);
+  EXPECT_EQ(status(0.55, false), OdometryStatus::kOk);
+  EXPECT_EQ(status(0.41, true, MotionVerdict::kJump), OdometryStatus::kRecovered);
+  EXPECT_EQ(status(0.39, true, MotionVerdict::kJump), OdometryStatus::kLost);
+}
+
 TEST(SweepJudge, AMotionThatIsImpossibleIsAClaim) {
   const SweepJudge judge(kHealth);
   const auto after = [&](MotionVerdict motion) {

@@ -9,17 +9,17 @@
 namespace rilo {
 namespace {
 
-constexpr double kSigmaM = 0.2;
-constexpr double kSpacingM = 4.0;
-constexpr int kRows = 20;
+constexpr double kScoreSigmaM = 0.2;
+constexpr double kPatchSpacingM = 4.0;
+constexpr int kPatchRows = 20;
 
 /// Small horizontal patches 4 m apart, each within one voxel: a metre beside one there is nothing.
-LocalMap patches() {
+LocalMap map_of_patches() {
   std::vector<Eigen::Vector3d> world;
-  for (int i = 0; i < kRows; ++i) {
-    for (int j = 0; j < kRows; ++j) {
+  for (int i = 0; i < kPatchRows; ++i) {
+    for (int j = 0; j < kPatchRows; ++j) {
       for (int k = 0; k < 25; ++k) {
-        world.emplace_back(kSpacingM * i + 0.05 + 0.1 * (k % 5), kSpacingM * j + 0.05 + 0.1 * (k / 5), 0.25);
+        world.emplace_back(kPatchSpacingM * i + 0.05 + 0.1 * (k % 5), kPatchSpacingM * j + 0.05 + 0.1 * (k / 5), 0.25);
       }
     }
   }
@@ -27,19 +27,19 @@ LocalMap patches() {
 }
 
 /// The first `count` patches' middles, moved by `by`.
-void add(std::vector<Eigen::Vector3f>& points, int count, const Eigen::Vector3f& by) {
+void add_patches(std::vector<Eigen::Vector3f>& points, int count, const Eigen::Vector3f& by) {
   for (int n = 0; n < count; ++n) {
-    const auto i = static_cast<float>(n / kRows);
-    const auto j = static_cast<float>(n % kRows);
+    const auto i = static_cast<float>(n / kPatchRows);
+    const auto j = static_cast<float>(n % kPatchRows);
     points.emplace_back(Eigen::Vector3f(4.0F * i + 0.25F, 4.0F * j + 0.25F, 0.25F) + by);
   }
 }
 
 /// `here` points on patches, and for each of the four places beside the pose `beside` points that would be on patches
 /// there, but for those of the places in `but`.
-std::vector<Eigen::Vector3f> sweep_of(int here, int beside, const std::vector<Eigen::Vector3f>& but = {}) {
+std::vector<Eigen::Vector3f> patch_sweep(int here, int beside, const std::vector<Eigen::Vector3f>& but = {}) {
   std::vector<Eigen::Vector3f> points;
-  add(points, here, Eigen::Vector3f::Zero());
+  add_patches(points, here, Eigen::Vector3f::Zero());
   const std::vector<Eigen::Vector3f> ways = {Eigen::Vector3f::UnitX(), -Eigen::Vector3f::UnitX(),
                                              Eigen::Vector3f::UnitY(), -Eigen::Vector3f::UnitY()};
   for (const Eigen::Vector3f& way : ways) {
@@ -47,40 +47,40 @@ std::vector<Eigen::Vector3f> sweep_of(int here, int beside, const std::vector<Ei
     for (const Eigen::Vector3f& other : but) {
       left_out = left_out || other == way;
     }
-    add(points, left_out ? 0 : beside, -way);
+    add_patches(points, left_out ? 0 : beside, -way);
   }
   return points;
 }
 
 TEST(StandsOut, WhatSpeaksForThePoseIsTwiceWhatSpeaksForAPlaceBesideIt) {
-  const LocalMap map = patches();
-  EXPECT_TRUE(stands_out(sweep_of(101, 50), map, SE3::Identity(), kSigmaM));
-  EXPECT_FALSE(stands_out(sweep_of(99, 50), map, SE3::Identity(), kSigmaM));
-  EXPECT_FALSE(stands_out(sweep_of(0, 50), map, SE3::Identity(), kSigmaM));
+  const LocalMap map = map_of_patches();
+  EXPECT_TRUE(stands_out(patch_sweep(101, 50), map, SE3::Identity(), kScoreSigmaM));
+  EXPECT_FALSE(stands_out(patch_sweep(99, 50), map, SE3::Identity(), kScoreSigmaM));
+  EXPECT_FALSE(stands_out(patch_sweep(0, 50), map, SE3::Identity(), kScoreSigmaM));
 }
 
 TEST(StandsOut, OverOneOfThePlacesIsEnough) {
-  const LocalMap map = patches();
+  const LocalMap map = map_of_patches();
   for (const Eigen::Vector3f& way :
        {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(-1, 0, 0), Eigen::Vector3f(0, 1, 0), Eigen::Vector3f(0, -1, 0)}) {
-    EXPECT_TRUE(stands_out(sweep_of(60, 50, {way}), map, SE3::Identity(), kSigmaM)) << way.transpose();
+    EXPECT_TRUE(stands_out(patch_sweep(60, 50, {way}), map, SE3::Identity(), kScoreSigmaM)) << way.transpose();
   }
 }
 
 TEST(StandsOut, ThePlacesAreBesideTheSensorWhereverItLooks) {
-  const LocalMap map = patches();
+  const LocalMap map = map_of_patches();
   SE3 T = SE3::Identity();
   T.linear() = so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * test::kPi));
   T.translation() = Eigen::Vector3d(3.0, -2.0, 0.5);
   const auto seen = [&](int here) {
     std::vector<Eigen::Vector3f> points;
-    for (const Eigen::Vector3f& p : sweep_of(here, 50)) {
+    for (const Eigen::Vector3f& p : patch_sweep(here, 50)) {
       points.push_back((T.inverse() * p.cast<double>()).cast<float>());
     }
     return points;
   };
-  EXPECT_TRUE(stands_out(seen(101), map, T, kSigmaM));
-  EXPECT_FALSE(stands_out(seen(99), map, T, kSigmaM));
+  EXPECT_TRUE(stands_out(seen(101), map, T, kScoreSigmaM));
+  EXPECT_FALSE(stands_out(seen(99), map, T, kScoreSigmaM));
 }
 
 // Open ground explains the same points everywhere; the few that tell places apart are chance.
@@ -98,12 +98,12 @@ TEST(StandsOut, LittleThatSpeaksForOtherPlacesDoesNotCount) {
       points.emplace_back(-4.0F + 0.2F * static_cast<float>(i), -4.0F + 0.2F * static_cast<float>(j), -1.05F);
     }
   }
-  EXPECT_TRUE(stands_out(points, map, SE3::Identity(), kSigmaM));
+  EXPECT_TRUE(stands_out(points, map, SE3::Identity(), kScoreSigmaM));
 }
 
 TEST(StandsOut, NothingToCompareIsNoReasonAgainst) {
-  EXPECT_TRUE(stands_out({}, patches(), SE3::Identity(), kSigmaM));
-  EXPECT_TRUE(stands_out({{1, 2, 3}}, LocalMap(LocalMapConfig{}), SE3::Identity(), kSigmaM));
+  EXPECT_TRUE(stands_out({}, map_of_patches(), SE3::Identity(), kScoreSigmaM));
+  EXPECT_TRUE(stands_out({{1, 2, 3}}, LocalMap(LocalMapConfig{}), SE3::Identity(), kScoreSigmaM));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ constexpr double kVoxelSigmas = 2.0;         // smaller voxels than this tell a 
 
 constexpr double kBesideM = 1.0;          // far enough that no plane explains the same point there
 constexpr double kLittleAgainst = 0.125;  // of the score: in an open field hardly a point tells two places apart
-constexpr double kTimesAgainst = 2.0;     // right sweeps have 2.1 and more, those in a map of other places about 1
+constexpr double kTimesAgainst = 2.0;     // right sweeps hardly ever have less, those in a map of other places about 1
 
 std::vector<Candidate> grid_nodes(const PoseGrid& grid) {
   const int shifts = static_cast<int>(std::lround(grid.max_shift_m / grid.shift_step_m));

@@ -18,8 +18,10 @@ LocalMap map_of_patches() {
   std::vector<Eigen::Vector3d> world;
   for (int i = 0; i < kPatchRows; ++i) {
     for (int j = 0; j < kPatchRows; ++j) {
-      for (int k = 0; k < 25; ++k) {
-        world.emplace_back(kPatchSpacingM * i + 0.05 + 0.1 * (k % 5), kPatchSpacingM * j + 0.05 + 0.1 * (k / 5), 0.25);
+      for (int k = 0; k < 5; ++k) {
+        for (int l = 0; l < 5; ++l) {
+          world.emplace_back(kPatchSpacingM * i + 0.05 + 0.1 * k, kPatchSpacingM * j + 0.05 + 0.1 * l, 0.25);
+        }
       }
     }
   }
@@ -29,9 +31,10 @@ LocalMap map_of_patches() {
 /// The first `count` patches' middles, moved by `by`.
 void add_patches(std::vector<Eigen::Vector3f>& points, int count, const Eigen::Vector3f& by) {
   for (int n = 0; n < count; ++n) {
-    const auto i = static_cast<float>(n / kPatchRows);
-    const auto j = static_cast<float>(n % kPatchRows);
-    points.emplace_back(Eigen::Vector3f(4.0F * i + 0.25F, 4.0F * j + 0.25F, 0.25F) + by);
+    const int i = n / kPatchRows;
+    const int j = n % kPatchRows;
+    const Eigen::Vector3d middle(kPatchSpacingM * i + 0.25, kPatchSpacingM * j + 0.25, 0.25);
+    points.emplace_back(middle.cast<float>() + by);
   }
 }
 

@@ -123,12 +123,13 @@ def stretches(drive, sweeps, middle):
     if not drive.truth_file:
         return None
     rng = np.random.default_rng(1)
-    end = list(range(len(drive.files)))[-20:]
+    last = len(drive.files) - 20
     numbers = []
     while len(numbers) < 100:
-        begin = rng.integers(0, end[0])
-        numbers += range(begin, min(begin + rng.integers(1, 11), end[0]))
-    return [Entry(drive, i, 0.1 * k) for k, i in enumerate(numbers[:100] + end)]
+        begin = rng.integers(0, last)
+        numbers += range(begin, min(begin + rng.integers(1, 11), last))
+    numbers = numbers[:100] + list(range(last, len(drive.files)))
+    return [Entry(drive, i, 0.1 * k) for k, i in enumerate(numbers)]
 
 
 def cover(points, times):

@@ -212,7 +212,7 @@ TEST(SweepJudge, ASweepThatFitsAThirdAsWellAsUsualDoesNotBelongThere) {
   EXPECT_EQ(status(9.9, 0.5, true), OdometryStatus::kRecovered);
 }
 
-// Sweeps of many places in one map: each finds a pose that fits it, and the next ones that pose.
+// In a map of many places every sweep finds a pose that fits.
 TEST(SweepJudge, ASweepThatPlacesBesideExplainAsWellIsLost) {
   const SweepJudge judge(kHealth);
   Registration registration = fitting();

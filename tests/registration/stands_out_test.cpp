@@ -1,4 +1,5 @@
 // Whether the map shows a sweep at a pose rather than a metre beside it, counted by hand.
+#include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,6 +13,8 @@ namespace {
 constexpr double kScoreSigmaM = 0.2;
 constexpr double kPatchSpacingM = 4.0;
 constexpr int kPatchRows = 20;
+const std::array<Eigen::Vector3f, 4> kWays = {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(-1, 0, 0),
+                                              Eigen::Vector3f(0, 1, 0), Eigen::Vector3f(0, -1, 0)};
 
 /// Small horizontal patches 4 m apart, each within one voxel: a metre beside one there is nothing.
 LocalMap map_of_patches() {
@@ -38,19 +41,13 @@ void add_patches(std::vector<Eigen::Vector3f>& points, int count, const Eigen::V
   }
 }
 
-/// `here` points on patches, and for each of the four places beside the pose `beside` points that would be on patches
-/// there, but for those of the places in `but`.
-std::vector<Eigen::Vector3f> patch_sweep(int here, int beside, const std::vector<Eigen::Vector3f>& but = {}) {
+/// `here` points on patches, and for each of the four places beside the pose but `but` `beside` points that would be on
+/// patches there.
+std::vector<Eigen::Vector3f> patch_sweep(int here, int beside, const Eigen::Vector3f& but = Eigen::Vector3f::Zero()) {
   std::vector<Eigen::Vector3f> points;
   add_patches(points, here, Eigen::Vector3f::Zero());
-  const std::vector<Eigen::Vector3f> ways = {Eigen::Vector3f::UnitX(), -Eigen::Vector3f::UnitX(),
-                                             Eigen::Vector3f::UnitY(), -Eigen::Vector3f::UnitY()};
-  for (const Eigen::Vector3f& way : ways) {
-    bool left_out = false;
-    for (const Eigen::Vector3f& other : but) {
-      left_out = left_out || other == way;
-    }
-    add_patches(points, left_out ? 0 : beside, -way);
+  for (const Eigen::Vector3f& way : kWays) {
+    add_patches(points, way == but ? 0 : beside, -way);
   }
   return points;
 }
@@ -64,9 +61,8 @@ TEST(StandsOut, WhatSpeaksForThePoseIsTwiceWhatSpeaksForAPlaceBesideIt) {
 
 TEST(StandsOut, OverOneOfThePlacesIsEnough) {
   const LocalMap map = map_of_patches();
-  for (const Eigen::Vector3f& way :
-       {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(-1, 0, 0), Eigen::Vector3f(0, 1, 0), Eigen::Vector3f(0, -1, 0)}) {
-    EXPECT_TRUE(stands_out(patch_sweep(60, 50, {way}), map, SE3::Identity(), kScoreSigmaM)) << way.transpose();
+  for (const Eigen::Vector3f& way : kWays) {
+    EXPECT_TRUE(stands_out(patch_sweep(60, 50, way), map, SE3::Identity(), kScoreSigmaM)) << way.transpose();
   }
 }
 
@@ -95,13 +91,26 @@ TEST(StandsOut, LittleThatSpeaksForOtherPlacesDoesNotCount) {
     }
   }
   const LocalMap map = test::map_of(ground);
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 40; ++i) {
-    for (int j = 0; j < 40; ++j) {
-      points.emplace_back(-4.0F + 0.2F * static_cast<float>(i), -4.0F + 0.2F * static_cast<float>(j), -1.05F);
+  // 1600 points that the ground explains everywhere, and some beyond each edge that it explains at one place beside.
+  const auto seen = [](int beyond) {
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 40; ++i) {
+      for (int j = 0; j < 40; ++j) {
+        points.emplace_back(-4.0F + 0.2F * static_cast<float>(i), -4.0F + 0.2F * static_cast<float>(j), -1.05F);
+      }
     }
-  }
-  EXPECT_TRUE(stands_out(points, map, SE3::Identity(), kScoreSigmaM));
+    for (const Eigen::Vector3f& way : kWays) {
+      for (int i = 0; i < beyond; ++i) {
+        const Eigen::Vector3f along(way.y(), way.x(), 0.0F);
+        points.push_back(6.6F * way + (-4.0F + 0.03F * static_cast<float>(i)) * along +
+                         Eigen::Vector3f(0.0F, 0.0F, -1.05F));
+      }
+    }
+    return points;
+  };
+  EXPECT_TRUE(stands_out(seen(0), map, SE3::Identity(), kScoreSigmaM));
+  EXPECT_TRUE(stands_out(seen(195), map, SE3::Identity(), kScoreSigmaM)) << "less than an eighth of the score";
+  EXPECT_FALSE(stands_out(seen(205), map, SE3::Identity(), kScoreSigmaM));
 }
 
 TEST(StandsOut, NothingToCompareIsNoReasonAgainst) {

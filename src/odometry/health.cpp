@@ -1,5 +1,9 @@
 #include "odometry/health.hpp"
 
+#include <algorithm>
+
+#include "odometry/sweep_map.hpp"
+
 namespace rilo {
 
 bool is_degenerate(const IcpResult& icp, const HealthConfig& config) {
@@ -17,11 +21,9 @@ bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig
   if (evidence.second_sweep && (icp.frozen || is_degenerate(icp, config))) {
     return false;  // along a road with little to hold on to it fits metres off, too
   }
-  // There is no usual score yet. A share of what the first sweep scores on its own map is reached by wrong poses, too.
-  if (evidence.map_sweeps == 1 && evidence.quality < config.least_quality_per_m) {
-    return false;
-  }
-  return evidence.score >= config.lost_share * evidence.usual_score;
+  const bool established = evidence.map_sweeps >= kEstablishedSweeps;
+  const double least = established ? 0.0 : config.least_score;
+  return evidence.score >= std::max(least, config.lost_share * evidence.usual_score);
 }
 
 OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {

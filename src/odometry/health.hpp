@@ -11,7 +11,6 @@ namespace rilo {
 struct Evidence {
   double score = 0;             ///< map score at the registered pose
   double usual_score = 0;       ///< of the sweeps before; 0: unknown
-  double quality = 0;           ///< quality_of() the registration, 1/m
   bool was_lost = false;        ///< the sweep before was lost
   std::size_t map_sweeps = 0;   ///< in the map: while they are few, it may itself be wrong
   bool shrunk = false;          ///< the place is much smaller than one sweep before: something covers the sensor

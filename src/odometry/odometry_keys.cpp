@@ -200,8 +200,8 @@ void add_health(KeyVisitor& keys, HealthConfig& c) {
   keys.real(
       {"lost_share", "", "lost when the map score falls below this share of the usual one", "experiment: 384 pairs"},
       c.lost_share, 0, 1);
-  keys.real({"least_score", "", "second and third sweep of a map: lost below it", "experiment: a jam"}, c.least_score,
-            0, 1);
+  keys.real({"least_score", "", "second and third sweep of a map: lost below it", "experiment: snow"}, c.least_score, 0,
+            1);
   keys.real({"degenerate_ratio", "", "a direction with a smaller relative eigenvalue is not constrained",
              "experiment: weak directions"},
             c.degenerate_ratio, 0, 1);

@@ -24,7 +24,7 @@ Evidence evidence(double score) {
   return e;
 }
 
-const HealthConfig kHealth;  // half of the usual score, in a young map never below 0.17
+const HealthConfig kHealth;  // half of the usual score, in a young map never below 0.1
 
 TEST(Judging, TheScoreMustBeNearTheUsualOne) {
   Evidence e = evidence(0.41);
@@ -35,20 +35,20 @@ TEST(Judging, TheScoreMustBeNearTheUsualOne) {
 }
 
 TEST(Judging, TheFloorDoesNotDependOnWhatWasLearnt) {
-  Evidence e = evidence(0.165);
+  Evidence e = evidence(0.081);  // the best of seven wrong second sweeps in snow
   e.map_sweeps = kEstablishedSweeps - 1;
-  e.usual_score = 0.165;  // learnt from sweeps as bad as this: wrong ones among moving cars
+  e.usual_score = 0.081;  // learnt from sweeps as bad as this
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
   e.usual_score = 0;
   e.map_sweeps = 1;
   e.second_sweep = true;
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
-  e.score = 0.186;  // the least of 124 right second sweeps
+  e.score = 0.121;  // the least of 808 right second sweeps without snow: among bushes few points have planes
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
 }
 
 TEST(Judging, TheFloorIsForMapsThatMayBeWrongThemselves) {
-  Evidence e = evidence(0.1);
+  Evidence e = evidence(0.09);
   e.usual_score = 0.12;  // in heavy snow, with the right pose on a map that began in less of it
   for (const std::size_t few : {std::size_t{1}, kEstablishedSweeps - 1}) {
     e.map_sweeps = few;

@@ -23,10 +23,11 @@ fail() {
   tail -n 20 "$work"/*.err >&2 || true
   exit 1
 }
+# Short pauses: a task is to be seen while it runs, and some run for half a second.
 wait_for() {
-  for _ in $(seq 600); do
+  for _ in $(seq 3000); do
     "$@" >/dev/null 2>&1 && return 0
-    sleep 0.1
+    sleep 0.02
   done
   fail "waited in vain: $*"
 }
@@ -46,12 +47,18 @@ task_of() { pgrep -f -- "--out $work/$1 .*--cell $2\$"; }
 stop_task() {
   local stopped="" now
   wait_for task_of "$1" "$2"
-  now="$(task_of "$1" "$2")"
+  now="$(task_of "$1" "$2" || true)"
   while [ "$now" != "$stopped" ]; do
-    echo "$now" | xargs kill -STOP
+    echo "$now" | xargs --no-run-if-empty kill -STOP || true
     stopped="$now"
-    now="$(task_of "$1" "$2")"
+    now="$(task_of "$1" "$2" || true)"
   done
+  [ -n "$stopped" ] || fail "cell $2 of $1 ended before it could be stopped"
+}
+# Stopped first: a task that still runs may be finished before the signal, or scancel, reaches it.
+kill_task() {
+  stop_task "$1" "$2"
+  task_of "$1" "$2" | head -n 1 | xargs kill -9
 }
 # How many tasks the cell has had.
 tasks_had() { find "$work/$1/slurm" -name "*_$2.log" | wc -l; }
@@ -63,11 +70,11 @@ same_tables() {
 
 RILO_SLURM_CPUS=2 "$scripts/slurm_local.sh" start "$work/slurm" >/dev/null
 export SLURM_CONF="$work/slurm/slurm.conf"
-"$rilo" simulate --out "$work/drive" --sensor vlp16 --start 10 --sweeps 12 --quiet
+"$rilo" simulate --out "$work/drive" --sensor vlp16 --start 10 --sweeps 24 --quiet
 mkdir "$work/long"
 for i in $(seq 0 59); do
-  phase=$((i % 22))
-  ln -s "$work/drive/velodyne/$(printf %06d $((phase < 12 ? phase : 22 - phase))).bin" "$work/long/$(printf %06d "$i").bin"
+  phase=$((i % 46))
+  ln -s "$work/drive/velodyne/$(printf %06d $((phase < 24 ? phase : 46 - phase))).bin" "$work/long/$(printf %06d "$i").bin"
 done
 cat >"$work/plan.yaml" <<'YAML'
 sequences:
@@ -92,11 +99,11 @@ bench plain --on slurm --jobs 2 || fail "exit code $?"
 same_tables plain
 
 echo "== tasks that are killed, cancelled and out of time are submitted again"
-start_bench broken --on slurm --retries 1 &
+# One at a time: the second would end while the first is being stopped.
+start_bench broken --on slurm --jobs 1 --retries 1 &
 driver=$!
-wait_for task_of broken 0
-task_of broken 0 | head -n 1 | xargs kill -9
-wait_for task_of broken 1
+kill_task broken 0
+stop_task broken 1
 scancel "$(array_of 1)"
 stop_task broken 2
 scontrol update JobId="$(array_of 2)" EndTime="$(date -d '+1 second' +%Y-%m-%dT%H:%M:%S)"
@@ -110,8 +117,7 @@ for cell in 0 1 2; do [ "$(tasks_had broken "$cell")" -eq 2 ] || fail "cell $cel
 echo "== without retries the one that was killed is listed; the same command again runs it alone"
 start_bench listed --on slurm &
 driver=$!
-wait_for task_of listed 3
-task_of listed 3 | head -n 1 | xargs kill -9
+kill_task listed 3
 if wait "$driver"; then fail "a killed task went unnoticed"; fi
 driver=""
 grep -q "1 of 4 cells failed" "$work/listed.err" || fail "the failure is not said"
@@ -134,7 +140,7 @@ for cell in 0 1 2 3; do [ "$(tasks_had adopted "$cell")" -eq 1 ] || fail "cell $
 echo "== Ctrl-C: the tasks are cancelled, what is finished is kept"
 start_bench interrupted --on slurm &
 driver=$!
-wait_for task_of interrupted 2
+stop_task interrupted 2
 kill -INT "$driver"
 if wait "$driver"; then code=0; else code=$?; fi
 driver=""

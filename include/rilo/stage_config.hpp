@@ -13,6 +13,7 @@ struct PreprocessConfig {
   double min_voxel_m = 0.1;      ///< smallest voxel of the source cloud
   double max_voxel_m = 1.0;      ///< largest voxel of the source cloud
   double map_voxel_ratio = 0.8;  ///< voxel size of the map cloud relative to that of the source cloud
+  double most_isolated = 0.2;    ///< share of isolated returns: with more of them they are flakes, and are dropped
 };
 
 /// Density-filtered distribution-to-distribution registration (III-A).

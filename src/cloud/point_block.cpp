@@ -1,6 +1,8 @@
 #include "cloud/point_block.hpp"
 
+#include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "cloud/measured_point.hpp"
 #include "geometry/voxel_key.hpp"
@@ -22,6 +24,29 @@ inline void find_voxel_indices(const Lanes<float>& from, double inverse_size, La
     const auto truncated = static_cast<double>(static_cast<int>(v));
     to[i] = static_cast<std::uint32_t>(static_cast<int>(truncated - (v < truncated ? 1.0 : 0.0)));
   }
+}
+
+constexpr float kLeastRange2 = 1e-4F;  // m²; what is nearer shares a layer
+constexpr float kMostRange2 = 1e12F;   // m²; layers are numbered below 2^10
+
+/// Natural logarithm of the square root, to 0.3 %.
+inline float log_of_root(float square) {
+  const auto bits = std::bit_cast<std::uint32_t>(square);
+  const auto exponent = static_cast<float>(static_cast<int>(bits >> 23U) - 127);
+  const auto m = std::bit_cast<float>((bits & 0x7FFFFFU) | 0x3F800000U);  // 1 … 2
+  const float log2 = exponent + (-m * m + 6.0F * m - 5.0F) / 3.0F;        // exact at 1 and 2: steady
+  return 0.5F * std::numbers::ln2_v<float> * log2;
+}
+
+inline std::uint32_t layer_of(float range2, float inverse_rad) {
+  constexpr float kFirst = 5.0F;  // −ln of less than the least range
+  const float from_first = log_of_root(range2 > kLeastRange2 ? range2 : kLeastRange2) + kFirst;
+  return static_cast<std::uint32_t>(static_cast<int>(from_first * inverse_rad));
+}
+
+/// Arcus tangent of −1 … 1, to 0.004.
+inline float angle_of(float tangent) {
+  return tangent * (0.25F * std::numbers::pi_v<float> + 0.273F * (1.0F - std::abs(tangent)));
 }
 }  // namespace
 
@@ -152,6 +177,33 @@ RILO_WIDE void rotate_elevation(PointBlock& p, const ElevationRotation& rotation
     p.z[i] = cosine * p.z[i] + sine * horizontal;
   }
 }
+
+RILO_WIDE void find_polar_cells(const PointBlock& p, float size_rad, Lanes<std::uint32_t>& directions,
+                                Lanes<std::uint32_t>& layers) {
+  const float inverse_rad = 1.0F / size_rad;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const float range2 = p.x[i] * p.x[i] + (p.y[i] * p.y[i] + p.z[i] * p.z[i]);
+    const bool usual = range2 > 0.0F && range2 <= kMostRange2;  // false for NaN
+    const float x = usual ? p.x[i] : 1.0F;
+    const float y = usual ? p.y[i] : 0.0F;
+    const float z = usual ? p.z[i] : 0.0F;
+    // The face of a cube that the direction meets, and where.
+    const bool along_x = std::abs(x) >= std::abs(y) && std::abs(x) >= std::abs(z);
+    const bool along_y = !along_x && std::abs(y) >= std::abs(z);
+    const float depth = along_x ? x : (along_y ? y : z);
+    const float across = along_x ? y : x;
+    const float up = along_x || along_y ? z : y;
+    const float face = (along_x ? 0.0F : (along_y ? 2.0F : 4.0F)) + (depth < 0.0F ? 1.0F : 0.0F);
+    const float inverse_depth = 1.0F / std::abs(depth);
+    // Faces are 4 rad apart: no cell lies on two of them.
+    const int column = static_cast<int>((4.0F * face + 1.0F + angle_of(across * inverse_depth)) * inverse_rad);
+    const int row = static_cast<int>((1.0F + angle_of(up * inverse_depth)) * inverse_rad);
+    directions[i] = static_cast<std::uint32_t>(column * 64 + row);
+    layers[i] = layer_of(usual ? range2 : 1.0F, inverse_rad);
+  }
+}
+
+std::uint32_t polar_layer(float range_m, float size_rad) { return layer_of(range_m * range_m, 1.0F / size_rad); }
 
 RILO_WIDE void find_voxel_keys(const PointBlock& p, double inverse_size, Lanes<std::uint64_t>& keys) {
   alignas(64) Lanes<std::uint32_t> x;

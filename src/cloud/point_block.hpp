@@ -113,6 +113,17 @@ void find_elevation_jacobians(const PointBlock& p, PointBlock& jacobians);
 /// `rotation` of each point.
 void rotate_elevation(PointBlock& p, const ElevationRotation& rotation);
 
+/// The cell of each point in a grid of polar coordinates. Directions are cut into cells of about `size_rad` by
+/// `size_rad` (at least 0.05 rad, to 1 %), numbered below kPolarDirections; layers are as thick as `size_rad` times
+/// their range. Any numbers may be given: those of points that are not finite mean nothing.
+void find_polar_cells(const PointBlock& p, float size_rad, PointBlock::Lanes<std::uint32_t>& directions,
+                      PointBlock::Lanes<std::uint32_t>& layers);
+
+inline constexpr std::uint32_t kPolarDirections = 1U << 15U;
+
+/// The layer of a range (m).
+std::uint32_t polar_layer(float range_m, float size_rad);
+
 /// voxel_key(voxel_of(p, inverse_size)) of each point.
 void find_voxel_keys(const PointBlock& p, double inverse_size, PointBlock::Lanes<std::uint64_t>& keys);
 

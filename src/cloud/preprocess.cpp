@@ -172,8 +172,8 @@ void Preprocessor::reset() {
   prepared_.scene_range_m = 0.0;
 }
 
-/// Which points are finite and within range, where those of each chunk go, and the span of their times.
-std::size_t Preprocessor::find_valid(const SweepView& sweep, bool timed) {
+/// Which points are finite and within range, and the span of their times.
+void Preprocessor::find_valid(const SweepView& sweep, bool timed) {
   const std::size_t count = sweep.points.size();
   valid_.resize(count);
   chunks_.assign(chunk_count(count), {});
@@ -197,7 +197,6 @@ std::size_t Preprocessor::find_valid(const SweepView& sweep, bool timed) {
       }
       find_in_range(p, min2, max2, times, valid);
       std::fill(valid.begin() + static_cast<std::ptrdiff_t>(n), valid.end(), 0);
-      found.kept += static_cast<std::size_t>(std::accumulate(valid.begin(), valid.end(), 0));
       std::transform(valid.begin(), valid.begin() + static_cast<std::ptrdiff_t>(n), &valid_[first],
                      [](int in_range) { return static_cast<std::uint8_t>(in_range); });
       if (timed) {
@@ -207,16 +206,36 @@ std::size_t Preprocessor::find_valid(const SweepView& sweep, bool timed) {
     found.begin_s = *std::min_element(begins.begin(), begins.end());
     found.end_s = *std::max_element(ends.begin(), ends.end());
   });
+}
+
+/// In clear air the isolated returns are those of poles and twigs, which say where the sensor is.
+void Preprocessor::drop_flakes(const SweepView& sweep) {
+  if (config_.most_isolated >= 1.0 || !isolated_.more_than(config_.most_isolated, sweep.points, valid_)) {
+    return;
+  }
+  for (std::size_t i = 0; i < valid_.size(); ++i) {
+    valid_[i] = static_cast<std::uint8_t>(valid_[i] != 0 && !isolated_.isolated(i));
+  }
+}
+
+/// Where the valid points of each chunk go; how many there are.
+std::size_t Preprocessor::place_chunks() {
   std::size_t total = 0;
-  for (Chunk& chunk : chunks_) {
-    chunk.to = std::exchange(total, total + chunk.kept);
+  for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+    const auto begin = valid_.begin() + static_cast<std::ptrdiff_t>(chunk * kChunkSize);
+    const auto end = valid_.begin() + static_cast<std::ptrdiff_t>(std::min(valid_.size(), (chunk + 1) * kChunkSize));
+    chunks_[chunk].to = std::exchange(total, std::accumulate(begin, end, total));
   }
   return total;
 }
 
 void Preprocessor::crop(const SweepView& sweep) {
   const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
-  const std::size_t kept = find_valid(sweep, timed);
+  find_valid(sweep, timed);
+  const std::size_t in_range = place_chunks();
+  drop_flakes(sweep);
+  const std::size_t kept = place_chunks();
+  prepared_.kept_share = in_range == 0 ? 1.0 : static_cast<double>(kept) / static_cast<double>(in_range);
   const float mid_s = timed ? middle_of_times() : 0.0F;
   const auto mid_ns = static_cast<std::int64_t>(std::llround(static_cast<double>(mid_s) * 1e9));
   if (__builtin_add_overflow(sweep.stamp_ns, mid_ns, &prepared_.mid_stamp_ns)) {

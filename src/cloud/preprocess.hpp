@@ -8,6 +8,7 @@
 #include "cloud/beam_angles.hpp"
 #include "cloud/beam_index.hpp"
 #include "cloud/beam_sample.hpp"
+#include "cloud/isolated_returns.hpp"
 #include "cloud/thinning.hpp"
 #include "cloud/timed_cloud.hpp"
 #include "cloud/voxel_mean.hpp"
@@ -19,7 +20,8 @@ namespace rilo {
 /// A sweep after range crop and downsampling; times relative to the middle of the sweep.
 struct PreparedSweep {
   std::int64_t mid_stamp_ns = 0;  ///< reference time of the sweep's pose
-  std::size_t valid_points = 0;   ///< finite and within range
+  std::size_t valid_points = 0;   ///< finite, within range and no flakes
+  double kept_share = 1;          ///< of the finite points within range: the others are taken for flakes
   TimedCloud map_cloud;           ///< one point per map voxel, the mean of its points
   TimedCloud source;              ///< S, one point per source voxel, the mean of its points
   BeamSample beam_sample;         ///< some of the points as measured; empty unless beams are tracked
@@ -27,7 +29,8 @@ struct PreparedSweep {
   double scene_range_m = 0;       ///< the same, smoothed over the sweeps: how large the place is
 };
 
-/// Range crop, NaN removal, time normalisation and downsampling. Keeps its buffers from sweep to sweep.
+/// Range crop, removal of NaN and, when it snows, of flakes; time normalisation and downsampling. Keeps its buffers
+/// from sweep to sweep.
 class Preprocessor {
  public:
   static constexpr int kFirstPasses = 4;  ///< the first sweep is downsampled as often until its scale is found
@@ -64,13 +67,14 @@ class Preprocessor {
  private:
   /// What is kept of a chunk of the sweep.
   struct Chunk {
-    std::size_t kept = 0;
     std::size_t to = 0;                                      // place of the first in the cropped cloud
     float begin_s = std::numeric_limits<float>::infinity();  // span of their times
     float end_s = -std::numeric_limits<float>::infinity();
   };
   void crop(const SweepView& sweep);
-  std::size_t find_valid(const SweepView& sweep, bool timed);
+  void find_valid(const SweepView& sweep, bool timed);
+  void drop_flakes(const SweepView& sweep);
+  std::size_t place_chunks();
   float middle_of_times();
   void sample_beams();
   void downsample(double source_voxel_m);
@@ -82,6 +86,7 @@ class Preprocessor {
   PreparedSweep prepared_;
   std::vector<Chunk> chunks_;
   std::vector<std::uint8_t> valid_;  // of the points of the sweep: 0 or 1
+  IsolatedReturns isolated_;
   std::vector<float> ranges_;
   VoxelMean map_mean_;
   VoxelMean source_mean_;

@@ -1,7 +1,5 @@
 #include "odometry/health.hpp"
 
-#include <algorithm>
-
 #include "odometry/sweep_map.hpp"
 
 namespace rilo {
@@ -22,8 +20,10 @@ bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig
     return false;  // along a road with little to hold on to it fits metres off, too
   }
   const bool established = evidence.map_sweeps >= kEstablishedSweeps;
-  const double least = established ? 0.0 : config.least_score;
-  return evidence.score >= std::max(least, config.lost_share * evidence.usual_score);
+  if (!established && evidence.score * evidence.kept_share < config.least_score) {
+    return false;
+  }
+  return evidence.score >= config.lost_share * evidence.usual_score;
 }
 
 OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {

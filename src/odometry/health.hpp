@@ -10,6 +10,7 @@ namespace rilo {
 /// Evidence about one registration.
 struct Evidence {
   double score = 0;             ///< map score at the registered pose
+  double kept_share = 1;        ///< of the returns: the others, flakes, are not explained by the map
   double usual_score = 0;       ///< of the sweeps before; 0: unknown
   bool was_lost = false;        ///< the sweep before was lost
   std::size_t map_sweeps = 0;   ///< in the map: while they are few, it may itself be wrong

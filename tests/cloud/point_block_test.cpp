@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -183,6 +184,56 @@ TEST(PointBlock, TangentsQuadrantsAndSteps) {
   EXPECT_EQ(steps_in_azimuth(block_of(p)), 1 - static_cast<int>(kSize));
   p.resize(10);  // zeros beyond: no step
   EXPECT_EQ(steps_in_azimuth(block_of(p)), -9);
+}
+
+TEST(PointBlock, PolarCellsHoldWhatIsCloseInAngleAndRange) {
+  for (const float size_rad : {0.05F, 0.11F}) {
+    PointBlock::Lanes<std::uint32_t> directions;
+    PointBlock::Lanes<std::uint32_t> layers;
+    const std::vector<Eigen::Vector3f> some = test::random_points(40 * kSize, 50.0F, 9);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Eigen::Vector3f> first;
+    for (std::size_t i = 0; i < some.size(); i += kSize) {
+      PointBlock block;
+      block.load(&some[i], kSize);
+      find_polar_cells(block, size_rad, directions, layers);
+      for (std::size_t j = 0; j < kSize; ++j) {
+        const Eigen::Vector3f& p = some[i + j];
+        ASSERT_LT(directions[j], kPolarDirections);
+        ASSERT_EQ(layers[j], polar_layer(p.norm(), size_rad)) << p.norm();
+        const Eigen::Vector3f& other = first.try_emplace({directions[j], layers[j]}, p).first->second;
+        EXPECT_LT(std::acos(std::min(1.0F, p.normalized().dot(other.normalized()))), 1.6F * size_rad);
+        EXPECT_LT(std::abs(std::log(p.norm() / other.norm())), 1.1F * size_rad);
+      }
+    }
+    EXPECT_GT(first.size(), some.size() / 4);
+  }
+}
+
+TEST(PointBlock, PolarLayersGrowWithTheRange) {
+  std::uint32_t before = 0;
+  for (float range_m = 0.005F; range_m < 1e5F; range_m *= 1.0005F) {
+    const std::uint32_t layer = polar_layer(range_m, 0.05F);
+    EXPECT_GE(layer, before);
+    EXPECT_LE(layer, before + (before == 0 ? layer : 1));
+    before = layer;
+  }
+  EXPECT_NEAR(polar_layer(20.0F, 0.05F) - polar_layer(10.0F, 0.05F), std::log(2.0) / 0.05, 1.0);
+  EXPECT_LT(before, 1024U);
+}
+
+TEST(PointBlock, PolarCellsOfAnyNumbers) {
+  PointBlock block;
+  const std::vector<float> odd{0.0F, -0.0F, 1e-30F, 3e38F, -3e38F, kInfinite, -kInfinite, kNotANumber};
+  for (std::size_t i = 0; i < kSize; ++i) {
+    block.set(i, {odd[i % 8], odd[i / 8], odd[(i + i / 8) % 8]});
+  }
+  PointBlock::Lanes<std::uint32_t> directions;
+  PointBlock::Lanes<std::uint32_t> layers;
+  find_polar_cells(block, 0.05F, directions, layers);
+  for (std::size_t i = 0; i < kSize; ++i) {
+    EXPECT_LT(directions[i], kPolarDirections);
+    EXPECT_LT(layers[i], 1024U);
+  }
 }
 
 }  // namespace

@@ -47,6 +47,20 @@ TEST(Judging, TheFloorDoesNotDependOnWhatWasLearnt) {
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
 }
 
+TEST(Judging, AYoungMapMustExplainFlakesToo) {
+  Evidence e = evidence(0.4);  // what is left of a sweep in a snowstorm: rings on the road, which move along
+  e.map_sweeps = 1;
+  e.usual_score = 0;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
+  e.kept_share = 0.1;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
+  e.kept_share = 0.3;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
+  e.kept_share = 0.1;
+  e.map_sweeps = kEstablishedSweeps;
+  EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kOk);
+}
+
 TEST(Judging, TheFloorIsForMapsThatMayBeWrongThemselves) {
   Evidence e = evidence(0.09);
   e.usual_score = 0.12;  // in heavy snow, with the right pose on a map that began in less of it

@@ -23,11 +23,10 @@ void add_preprocess(KeyVisitor& keys, PreprocessConfig& c) {
   keys.real({"map_voxel_ratio", "", "voxel size of the map cloud relative to that of the source cloud",
              "experiment: preprocess.map_voxel_ratio 0.6 to 0.8"},
             c.map_voxel_ratio, 0.1, 1);
-  keys.real({"most_isolated", "",
-             "of the returns within 30 m: with more isolated ones it snows or rains, and they are "
-             "dropped; 1: never",
-             "experiment: isolated returns dropped"},
-            c.most_isolated, 0, 1);
+  keys.real(
+      {"most_isolated", "", "where more of the returns within 30 m are isolated, these are dropped as flakes; 1: never",
+       "experiment: isolated returns dropped"},
+      c.most_isolated, 0, 1);
 }
 
 void add_coarse(KeyVisitor& keys, CoarseRegistrationConfig& c) {

@@ -63,7 +63,7 @@ struct StageTimes {
 /// Statistics of one sweep; one line of sweeps.csv.
 struct SweepStats {
   std::size_t points_in = 0;      ///< as given
-  std::size_t points_valid = 0;   ///< finite, within range and within 2.5 s of the stamp
+  std::size_t points_valid = 0;   ///< finite, within range and time, and not taken for flakes
   std::size_t points_map = 0;     ///< after downsampling, for the map
   std::size_t points_source = 0;  ///< source cloud S of the fine registration
   std::size_t map_voxels = 0;     ///< after the update

@@ -235,7 +235,7 @@ void Preprocessor::crop(const SweepView& sweep) {
   const std::size_t in_range = place_chunks();
   drop_flakes(sweep);
   const std::size_t kept = place_chunks();
-  prepared_.kept_share = in_range == 0 ? 1.0 : static_cast<double>(kept) / static_cast<double>(in_range);
+  prepared_.flakes = in_range - kept;
   const float mid_s = timed ? middle_of_times() : 0.0F;
   const auto mid_ns = static_cast<std::int64_t>(std::llround(static_cast<double>(mid_s) * 1e9));
   if (__builtin_add_overflow(sweep.stamp_ns, mid_ns, &prepared_.mid_stamp_ns)) {

@@ -21,12 +21,17 @@ namespace rilo {
 struct PreparedSweep {
   std::int64_t mid_stamp_ns = 0;  ///< reference time of the sweep's pose
   std::size_t valid_points = 0;   ///< finite, within range and no flakes
-  double kept_share = 1;          ///< of the finite points within range: the others are taken for flakes
+  std::size_t flakes = 0;         ///< isolated returns that were dropped
   TimedCloud map_cloud;           ///< one point per map voxel, the mean of its points
   TimedCloud source;              ///< S, one point per source voxel, the mean of its points
   BeamSample beam_sample;         ///< some of the points as measured; empty unless beams are tracked
   double median_range_m = 0;      ///< of S
   double scene_range_m = 0;       ///< the same, smoothed over the sweeps: how large the place is
+
+  /// Of the finite points within range those that are no flakes, 0 … 1.
+  double kept_share() const {
+    return flakes == 0 ? 1.0 : static_cast<double>(valid_points) / static_cast<double>(valid_points + flakes);
+  }
 };
 
 /// Range crop, removal of NaN and, when it snows, of flakes; time normalisation and downsampling. Keeps its buffers

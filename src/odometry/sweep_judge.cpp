@@ -26,7 +26,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
                             const JudgedAgainst& before) const {
   Evidence evidence;
   evidence.score = registration.score;
-  evidence.kept_share = prepared.kept_share;
+  evidence.kept_share = prepared.kept_share();
   evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
   evidence.ambiguous = registration.ambiguous;
   const bool sees_less = registration.icp.degeneracy.relative_eigenvalues[0] < kSeesLess * usual_eigenvalue_;

@@ -5,6 +5,7 @@ namespace rilo {
 void record(const SweepView& sweep, const PreparedSweep& prepared, SweepStats& stats) {
   stats.points_in = sweep.points.size();
   stats.points_valid = prepared.valid_points;
+  stats.points_isolated = prepared.flakes;
   stats.points_map = prepared.map_cloud.size();
   stats.points_source = prepared.source.size();
 }

@@ -102,6 +102,8 @@ struct RunMetrics {
   Counts initial_pose_reasons;
   std::size_t coarse_runs = 0;
   MaybeNumber mean_iterations;
+  MaybeCount flake_sweeps;  ///< whose isolated returns were dropped; both or none
+  MaybeNumber flakes_pct;   ///< of their returns within range
   std::optional<BudgetMetrics> budget;
 
   std::string calibration;                                       ///< file that the run began with

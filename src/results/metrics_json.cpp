@@ -122,6 +122,8 @@ void list_findings(auto& f, auto& m) {
   f.key("initial_pose_reasons", m.initial_pose_reasons);
   f.key("coarse_runs", m.coarse_runs);
   f.key("mean_iterations", m.mean_iterations);
+  f.maybe("flake_sweeps", m.flake_sweeps);
+  f.maybe("flakes_pct", m.flakes_pct);
   f.maybe("budget", m.budget);
   f.maybe("calibration", m.calibration);
   f.key("elevation_given_deg", m.elevation_given_deg);

@@ -64,6 +64,21 @@ std::optional<BudgetMetrics> budget(const RunRecord& run) {
                        count(&SweepStats::over_budget)};
 }
 
+void add_flakes(const RunRecord& run, RunMetrics& metrics) {
+  std::size_t sweeps = 0;
+  double flakes = 0;
+  double valid = 0;
+  for (const SweepResult& result : run.results) {
+    if (result.stats.points_isolated == 0) continue;
+    ++sweeps;
+    flakes += static_cast<double>(result.stats.points_isolated);
+    valid += static_cast<double>(result.stats.points_valid);
+  }
+  if (sweeps == 0) return;
+  metrics.flake_sweeps = sweeps;
+  metrics.flakes_pct = 100.0 * flakes / (flakes + valid);
+}
+
 // What the run found out about the sensor's angles; the correction given on the command line comes on top.
 void add_sensor_angles(const RunRecord& run, RunMetrics& metrics) {
   metrics.calibration = valid_utf8(run.calibration.string());
@@ -166,6 +181,7 @@ RunMetrics run_metrics(const RunRecord& run) {
   add_data(run, metrics);
   count_sweeps(run, metrics);
   metrics.budget = budget(run);
+  add_flakes(run, metrics);
   add_sensor_angles(run, metrics);
   metrics.truth_error = run.truth_error;
   if (run.evaluation) metrics.evaluation = evaluation_metrics(*run.evaluation, *run.truth);

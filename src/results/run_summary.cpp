@@ -36,6 +36,12 @@ std::string statuses(const RunMetrics& m) {
   return text;
 }
 
+std::string flakes(const RunMetrics& m) {
+  if (!m.flake_sweeps) return "";
+  return fmt::format("flakes          {:.0f} % of the returns dropped, in {}: snow or rain\n", m.flakes_pct.value_or(0),
+                     counted(*m.flake_sweeps, "sweep"));
+}
+
 // What comes from outside: the points come with the one, the first pass begins with the other on top (of
 // elevation.initial_deg or a calibration).
 std::string given_angles(const RunMetrics& m) {
@@ -89,7 +95,7 @@ std::string run_summary(const RunMetrics& m) {
   const std::string deskewing = m.motion_compensation ? "on" : "off";
   return fmt::format("{} of {}{}\n", counted(m.frames.value_or(0), "sweep"), m.data,
                      m.interrupted ? " (interrupted)" : "") +
-         effort(m) + statuses(m) +
+         effort(m) + statuses(m) + flakes(m) +
          fmt::format("pose time       {} of the sweep; deskewing: {}; point times: {}\n", m.pose_instant, deskewing,
                      m.point_times) +
          angles(m) + against_truth(m);

@@ -117,6 +117,7 @@ void add_statistics(Columns& table) {
   using S = SweepStats;
   table.stat("points_in", &S::points_in);
   table.stat("points_valid", &S::points_valid);
+  table.stat("points_isolated", &S::points_isolated);
   table.stat("points_map", &S::points_map);
   table.stat("points_source", &S::points_source);
   table.stat("map_voxels", &S::map_voxels);

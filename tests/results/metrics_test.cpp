@@ -238,6 +238,22 @@ TEST(Metrics, AFigureWithoutAnErrorBehindItIsNone) {
   EXPECT_THAT(text, Not(HasSubstr("% of the path")));
 }
 
+TEST(Metrics, FlakesAreNamedWhereThereWereSome) {
+  RunRecord run = short_run();
+  EXPECT_FALSE(run_metrics(run).flake_sweeps);
+  EXPECT_THAT(run_summary(run_metrics(run)), Not(HasSubstr("flakes")));
+  for (SweepResult& result : run.results) {
+    result.stats.points_valid = 100;
+  }
+  run.results[1].stats.points_isolated = 200;
+  run.results[2].stats.points_isolated = 400;
+  const RunMetrics metrics = run_metrics(run);
+  EXPECT_EQ(metrics.flake_sweeps, 2U);
+  EXPECT_EQ(metrics.flakes_pct, 75);
+  EXPECT_EQ(to_json(metrics_of(to_json(metrics), "metrics.json")), to_json(metrics));
+  EXPECT_THAT(run_summary(metrics), HasSubstr("\nflakes          75 % of the returns dropped, in 2 sweeps"));
+}
+
 TEST(Metrics, TheSummaryExplainsMapsThatBeginAgainAndAgain) {
   RunMetrics metrics;
   metrics.frames = 10;

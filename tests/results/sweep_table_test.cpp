@@ -20,6 +20,7 @@ SweepResult some_result() {
   SweepStats& s = r.stats;
   s.points_in = 1;
   s.points_valid = 2;
+  s.points_isolated = 9;
   s.points_map = 3;
   s.points_source = 4;
   s.map_voxels = 5;

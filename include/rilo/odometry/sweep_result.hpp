@@ -62,11 +62,12 @@ struct StageTimes {
 
 /// Statistics of one sweep; one line of sweeps.csv.
 struct SweepStats {
-  std::size_t points_in = 0;      ///< as given
-  std::size_t points_valid = 0;   ///< finite, within range and time, and not taken for flakes
-  std::size_t points_map = 0;     ///< after downsampling, for the map
-  std::size_t points_source = 0;  ///< source cloud S of the fine registration
-  std::size_t map_voxels = 0;     ///< after the update
+  std::size_t points_in = 0;        ///< as given
+  std::size_t points_valid = 0;     ///< finite, within range and time, and not taken for flakes
+  std::size_t points_isolated = 0;  ///< taken for flakes, and dropped: isolated returns of a sweep with many of them
+  std::size_t points_map = 0;       ///< after downsampling, for the map
+  std::size_t points_source = 0;    ///< source cloud S of the fine registration
+  std::size_t map_voxels = 0;       ///< after the update
   InitialPoseSource initial_pose = InitialPoseSource::kIdentity;
   InitialPoseReason initial_pose_reason = InitialPoseReason::kFirstSweep;
   bool coarse_ran = false;

@@ -23,41 +23,39 @@ std::uint32_t hashed(std::uint32_t direction, std::uint32_t layer) {
   return ((direction << 10U | layer) * 0x9E3779B1U) >> 12U;
 }
 
+/// Calls use(begin, end) for every stride-th chunk of `count` points.
+template <typename Use>
+void for_chunks(std::size_t count, std::size_t stride, const Use& use) {
+  for (std::size_t begin = 0; begin < count; begin += stride * kChunkSize) {
+    use(begin, std::min(count, begin + kChunkSize));
+  }
+}
+
 }  // namespace
 
 std::optional<double> IsolatedReturns::find(std::span<const Eigen::Vector3f> points,
                                             std::span<const std::uint8_t> valid, std::size_t stride) {
-  stride_ = stride;
   cells_.resize(points.size());
   directions_.resize(points.size());
   returns_.assign(kCells + 1, 0);
   returns_[kCells] = kLeastReturns;
-  const double density = find_cells(points, valid, kCellRad);
+  const double density = find_cells(points, valid, stride, kCellRad);
   if (density < kFewestPerDirection) {
     return std::nullopt;
   }
   if (density < kReturnsPerDirection) {
-    find_cells(points, valid, kCellRad * std::sqrt(kReturnsPerDirection / density));
+    find_cells(points, valid, stride, kCellRad * std::sqrt(kReturnsPerDirection / density));
   }
-  return count_isolated();
-}
-
-/// Calls use(begin, end) for each chunk of the points that is looked at.
-template <typename Use>
-void IsolatedReturns::for_chunks(const Use& use) const {
-  const std::size_t chunks = chunk_count(cells_.size());
-  for (std::size_t chunk = 0; chunk < chunks; chunk += stride_) {
-    use(chunk * kChunkSize, std::min(cells_.size(), (chunk + 1) * kChunkSize));
-  }
+  return count_isolated(stride);
 }
 
 /// Returns the mean number of valid points over the directions that have some.
 double IsolatedReturns::find_cells(std::span<const Eigen::Vector3f> points, std::span<const std::uint8_t> valid,
-                                   double cell_rad) {
+                                   std::size_t stride, double cell_rad) {
   const auto size_rad = static_cast<float>(cell_rad);
   const std::uint32_t last_layer = polar_layer(static_cast<float>(kFarthestM), size_rad);
-  for_each_index((chunk_count(points.size()) + stride_ - 1) / stride_, [&](std::size_t number) {
-    const std::size_t begin = number * stride_ * kChunkSize;
+  for_each_index((chunk_count(points.size()) + stride - 1) / stride, [&](std::size_t number) {
+    const std::size_t begin = number * stride * kChunkSize;
     const std::size_t end = std::min(points.size(), begin + kChunkSize);
     PointBlock p;
     alignas(64) PointBlock::Lanes<std::uint32_t> directions;
@@ -74,7 +72,7 @@ double IsolatedReturns::find_cells(std::span<const Eigen::Vector3f> points, std:
   });
   direction_met_.assign(kPolarDirections + 1, 0);
   std::size_t returns = 0;
-  for_chunks([&](std::size_t begin, std::size_t end) {
+  for_chunks(cells_.size(), stride, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       direction_met_[directions_[i]] = 1;
       returns += static_cast<std::size_t>(directions_[i] != kNoDirection);
@@ -85,12 +83,12 @@ double IsolatedReturns::find_cells(std::span<const Eigen::Vector3f> points, std:
 }
 
 /// Share of the points looked at that are isolated.
-double IsolatedReturns::count_isolated() {
+double IsolatedReturns::count_isolated(std::size_t stride) {
   // What one more return changes: two are isolated until the third comes.
   constexpr std::array<int, kLeastReturns + 1> kMore{1, 1, -2, 0};
   std::size_t looked_at = 0;
   int isolated = 0;
-  for_chunks([&](std::size_t begin, std::size_t end) {
+  for_chunks(cells_.size(), stride, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::uint8_t& returns = returns_[cells_[i]];
       isolated += kMore[returns];

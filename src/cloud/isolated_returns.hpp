@@ -19,13 +19,13 @@ class IsolatedReturns {
   /// Looks at the points whose `valid` is not 0. Returns the share (0 … 1) of those within 30 m that are isolated: that
   /// share their cell with fewer than two others. Empty when the returns are too sparse to tell.
   std::optional<double> find(std::span<const Eigen::Vector3f> points, std::span<const std::uint8_t> valid) {
-    return find(points, valid, 1);
+    return find(points, valid, kAll);
   }
 
   /// Whether more than the share `most` is isolated. Looks at a quarter of the points first: fewer neighbours, hence
   /// more that seem isolated, and in clear air the rest needs no look. After `true` as after find().
   bool more_than(double most, std::span<const Eigen::Vector3f> points, std::span<const std::uint8_t> valid) {
-    return find(points, valid, 4).value_or(1.0) > most && find(points, valid, 1).value_or(0.0) > most;
+    return find(points, valid, kQuarter).value_or(1.0) > most && find(points, valid, kAll).value_or(0.0) > most;
   }
 
   /// Whether point i of the last sweep is isolated. Farther than 30 m none is: a pole or a bush may give one return.
@@ -35,14 +35,15 @@ class IsolatedReturns {
   static constexpr std::uint8_t kLeastReturns = 3;
   static constexpr std::uint32_t kCells = 1U << 20U;  // few of them are taken: hardly two at one place
 
+  static constexpr std::size_t kAll = 1;      // every chunk of the points is looked at
+  static constexpr std::size_t kQuarter = 4;  // every fourth one
+
   std::optional<double> find(std::span<const Eigen::Vector3f> points, std::span<const std::uint8_t> valid,
                              std::size_t stride);
-  double find_cells(std::span<const Eigen::Vector3f> points, std::span<const std::uint8_t> valid, double cell_rad);
-  double count_isolated();
-  template <typename Use>
-  void for_chunks(const Use& use) const;
+  double find_cells(std::span<const Eigen::Vector3f> points, std::span<const std::uint8_t> valid, std::size_t stride,
+                    double cell_rad);
+  double count_isolated(std::size_t stride);
 
-  std::size_t stride_ = 1;                   // every stride_-th chunk of the points is looked at
   std::vector<std::uint32_t> cells_;         // of the points; kCells: is not looked at
   std::vector<std::uint16_t> directions_;    // of the points
   std::vector<std::uint8_t> returns_;        // in each cell, counted up to kLeastReturns

@@ -114,7 +114,7 @@ void find_elevation_jacobians(const PointBlock& p, PointBlock& jacobians);
 void rotate_elevation(PointBlock& p, const ElevationRotation& rotation);
 
 /// The cell of each point in a grid of polar coordinates. Directions are cut into cells of about `size_rad` by
-/// `size_rad` (at least 0.05 rad, to 1 %), numbered below kPolarDirections; layers are as thick as `size_rad` times
+/// `size_rad` (at least 0.05 rad), numbered below kPolarDirections; layers are as thick as `size_rad` times
 /// their range. Any numbers may be given: those of points that are not finite mean nothing.
 void find_polar_cells(const PointBlock& p, float size_rad, PointBlock::Lanes<std::uint32_t>& directions,
                       PointBlock::Lanes<std::uint32_t>& layers);

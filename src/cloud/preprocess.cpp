@@ -208,14 +208,17 @@ void Preprocessor::find_valid(const SweepView& sweep, bool timed) {
   });
 }
 
-/// In clear air the isolated returns are those of poles and twigs, which say where the sensor is.
-void Preprocessor::drop_flakes(const SweepView& sweep) {
-  if (config_.most_isolated >= 1.0 || !isolated_.more_than(config_.most_isolated, sweep.points, valid_)) {
-    return;
+/// Returns how many. In clear air the isolated returns are those of poles and twigs, which say where the sensor is.
+std::size_t Preprocessor::drop_flakes(const SweepView& sweep) {
+  std::size_t dropped = 0;
+  if (config_.most_isolated < 1.0 && isolated_.more_than(config_.most_isolated, sweep.points, valid_)) {
+    for (std::size_t i = 0; i < valid_.size(); ++i) {
+      const bool flake = valid_[i] != 0 && isolated_.isolated(i);
+      valid_[i] = flake ? 0 : valid_[i];
+      dropped += flake ? 1 : 0;
+    }
   }
-  for (std::size_t i = 0; i < valid_.size(); ++i) {
-    valid_[i] = static_cast<std::uint8_t>(valid_[i] != 0 && !isolated_.isolated(i));
-  }
+  return dropped;
 }
 
 /// Where the valid points of each chunk go; how many there are.
@@ -232,10 +235,8 @@ std::size_t Preprocessor::place_chunks() {
 void Preprocessor::crop(const SweepView& sweep) {
   const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
   find_valid(sweep, timed);
-  const std::size_t in_range = place_chunks();
-  drop_flakes(sweep);
+  prepared_.flakes = drop_flakes(sweep);
   const std::size_t kept = place_chunks();
-  prepared_.flakes = in_range - kept;
   const float mid_s = timed ? middle_of_times() : 0.0F;
   const auto mid_ns = static_cast<std::int64_t>(std::llround(static_cast<double>(mid_s) * 1e9));
   if (__builtin_add_overflow(sweep.stamp_ns, mid_ns, &prepared_.mid_stamp_ns)) {

@@ -78,7 +78,7 @@ class Preprocessor {
   };
   void crop(const SweepView& sweep);
   void find_valid(const SweepView& sweep, bool timed);
-  void drop_flakes(const SweepView& sweep);
+  std::size_t drop_flakes(const SweepView& sweep);
   std::size_t place_chunks();
   float middle_of_times();
   void sample_beams();

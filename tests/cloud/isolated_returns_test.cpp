@@ -1,4 +1,4 @@
-// Which returns stand alone.
+// Which returns stand alone, and when they are dropped.
 #include "cloud/isolated_returns.hpp"
 
 #include <algorithm>
@@ -9,6 +9,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "cloud/preprocess.hpp"
 
 namespace rilo {
 namespace {
@@ -171,6 +173,53 @@ TEST(IsolatedReturns, FewerReturnsLargerCells) {
 }
 
 TEST(IsolatedReturns, ManyReturnsOfOnePlaceAreNotIsolated) { EXPECT_EQ(share_of(Points(5000, {1, 2, 3})), 0.0); }
+
+/// Flakes at the beginning of the sweep, at intensity 1; walls at its end, at 2.
+Sweep sweep_of(const Scan& scan) {
+  Sweep sweep;
+  sweep.points = scan.points;
+  for (const bool flake : scan.flake) {
+    sweep.times_s.push_back(flake ? 0.0F : 0.1F);
+    sweep.intensities.push_back(flake ? 1.0F : 2.0F);
+  }
+  return sweep;
+}
+
+TEST(PreprocessTest, FlakesAreDroppedWhenItSnows) {
+  const Scan scan = scan_of_room(0.5);
+  const Sweep sweep = sweep_of(scan);
+  const auto walls_in = static_cast<double>(std::count(scan.flake.begin(), scan.flake.end(), false));
+  PreprocessConfig config;
+  Preprocessor preprocessor{config};
+  preprocessor.keep_intensities(true);
+  const PreparedSweep& prepared = preprocessor.prepare(sweep);
+  EXPECT_NEAR(static_cast<double>(prepared.valid_points), walls_in, 0.1 * walls_in);
+  EXPECT_EQ(prepared.flakes + prepared.valid_points, sweep.points.size());
+  EXPECT_DOUBLE_EQ(prepared.kept_share() * static_cast<double>(sweep.points.size()),
+                   static_cast<double>(prepared.valid_points));
+  // What is left keeps its own time and intensity.
+  double walls = 0;
+  for (std::size_t i = 0; i < prepared.map_cloud.size(); ++i) {
+    const bool wall = prepared.map_cloud.intensities[i] == 2.0F;
+    if (wall) {
+      EXPECT_FLOAT_EQ(prepared.map_cloud.offsets_s[i], 0.05F);
+    }
+    walls += wall ? static_cast<double>(prepared.map_cloud.counts[i]) : 0.0;
+  }
+  EXPECT_GT(walls, 0.75 * static_cast<double>(prepared.valid_points));
+
+  config.most_isolated = 1.0;
+  Preprocessor keeps_all{config};
+  EXPECT_EQ(keeps_all.prepare(sweep).valid_points, sweep.points.size());
+  EXPECT_EQ(keeps_all.prepare(sweep).kept_share(), 1.0);
+}
+
+TEST(PreprocessTest, AFewFlakesAreKept) {
+  const Sweep sweep = sweep_of(scan_of_room(0.1));
+  Preprocessor preprocessor{PreprocessConfig{}};
+  EXPECT_EQ(preprocessor.prepare(sweep).valid_points, sweep.points.size());
+  EXPECT_EQ(preprocessor.prepare(sweep).kept_share(), 1.0);
+}
 
 }  // namespace
 }  // namespace rilo

@@ -203,53 +203,6 @@ TEST(PreprocessTest, TheVoxelFindsTheWantedNumberOfPoints) {
   }
 }
 
-/// The same with a share of the points, those in front, moved to random ranges: flakes.
-Sweep snowed_in(Sweep sweep, double share) {
-  std::mt19937 rng(8);
-  std::uniform_real_distribution<float> closer(0.3F, 0.9F);
-  const auto flakes = static_cast<std::size_t>(share * static_cast<double>(sweep.points.size()));
-  for (std::size_t i = 0; i < flakes; ++i) {
-    sweep.points[i] *= closer(rng);
-  }
-  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-    sweep.times_s.push_back(i < flakes ? 0.0F : 0.1F);
-    sweep.intensities.push_back(i < flakes ? 1.0F : 2.0F);
-  }
-  return sweep;
-}
-
-TEST(PreprocessTest, FlakesAreDroppedWhenItSnows) {
-  const Sweep sweep = snowed_in(room(20.0F, 5.0F, 60000, 6), 0.5);
-  PreprocessConfig config = wide_config();
-  Preprocessor preprocessor{config};
-  preprocessor.keep_intensities(true);
-  const PreparedSweep& prepared = preprocessor.prepare(sweep);
-  EXPECT_NEAR(prepared.kept_share(), 0.55, 0.1);
-  EXPECT_EQ(prepared.flakes + prepared.valid_points, 60000U);
-  // What is left keeps its own time and intensity.
-  double walls = 0;
-  for (std::size_t i = 0; i < prepared.map_cloud.size(); ++i) {
-    const bool wall = prepared.map_cloud.intensities[i] == 2.0F;
-    if (wall) {
-      EXPECT_FLOAT_EQ(prepared.map_cloud.offsets_s[i], 0.05F);
-    }
-    walls += wall ? static_cast<double>(prepared.map_cloud.counts[i]) : 0.0;
-  }
-  EXPECT_GT(walls, 0.75 * static_cast<double>(prepared.valid_points));  // 0.5 before
-
-  config.most_isolated = 1.0;
-  Preprocessor keeps_all{config};
-  EXPECT_EQ(keeps_all.prepare(sweep).valid_points, 60000U);
-  EXPECT_EQ(keeps_all.prepare(sweep).kept_share(), 1.0);
-}
-
-TEST(PreprocessTest, AFewFlakesAreKept) {
-  const Sweep sweep = snowed_in(room(20.0F, 5.0F, 60000, 6), 0.1);
-  Preprocessor preprocessor{wide_config()};
-  EXPECT_EQ(preprocessor.prepare(sweep).valid_points, 60000U);
-  EXPECT_EQ(preprocessor.prepare(sweep).kept_share(), 1.0);
-}
-
 TEST(PreprocessTest, TheVoxelKeepsWithinItsLimits) {
   PreprocessConfig config = wide_config();
   config.min_voxel_m = 0.5;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "cloud/deskew.hpp"
@@ -20,6 +21,8 @@ constexpr std::size_t kManyPoints = 5000;  // where few of them make the differe
 constexpr double kSearchSigmaM = 0.3;      // more tolerant than the score: it only has to find the basin
 constexpr double kSearchStepM = 0.5;       // within the reach of the coarse stage
 constexpr double kSearchStepRad = 0.1;
+constexpr double kReachSigmas = 2.0;      // of the motion in a gap, searched (experiment: long gaps)
+constexpr double kMostShiftM = 10.0;      // beyond it the search takes longer than the gap
 constexpr double kSearchShare = 0.6;      // of the time left; the coarse stage from what was found needs the rest
 constexpr std::size_t kSearchStarts = 4;  // the cost of each is one registration
 // A cloud compensated for a slightly wrong velocity serves as a target: at either end of a sweep of 0.1 s it is off by
@@ -90,20 +93,21 @@ InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bo
   const bool resumed = std::exchange(restarts_due_, false);
   if (!resumed) {
     try_from(situation, predicted.T_odom_lidar, found);
-    const bool moves = !predicted.T_odom_lidar.isApprox(situation.previous);
-    if (doubt && moves && !is_consistent(found.best.score)) {
-      try_from(situation, situation.previous, found);  // no motion
+    // No motion; but at rest a sensor at speed does not spend a gap: there its turn may have ended.
+    const SE3& other = situation.reach ? situation.reach->T_odom_centre : situation.previous;
+    if (doubt && !predicted.T_odom_lidar.isApprox(other) && !is_consistent(found.best.score)) {
+      try_from(situation, other, found);
     }
     restarts_due_ = doubt && config_.restarts && found.cut;
   }
   if (doubt && config_.restarts && !found.cut && !is_consistent(found.best.score)) {
     deskew(situation.source, {predicted.twist}, compensated_);
-    for (const SE3& start : restarts(predicted.T_odom_lidar, situation.map, situation.deadline.after(kSearchShare))) {
+    for (const SE3& start : restarts(situation)) {
       if (is_consistent(found.best.score)) {
         break;
       }
       try_from(situation, start, found);
-      if (situation.single || resumed) {
+      if (situation.single || resumed || situation.reach) {
         consider(situation, start, found.best);
       }
     }
@@ -125,6 +129,9 @@ void InitialPoseStage::try_from(const Situation& situation, const SE3& start, Se
 }
 
 void InitialPoseStage::consider(const Situation& situation, const SE3& T, ScoredPose& best) {
+  if (situation.reach && !situation.reach->contains(T)) {
+    return;  // a road looks the same where the sensor was before
+  }
   // Each candidate implies its own motion during the sweep.
   const Vector6d twist = situation.single ? situation.predicted.twist : situation.twist_at(T);
   const double value = candidate_score(situation, T, twist);
@@ -147,9 +154,17 @@ bool InitialPoseStage::is_consistent(double score) const {
 
 bool InitialPoseStage::suspicious(double quality) const { return quality < kSuspicious * usual_quality_; }
 
-std::vector<SE3> InitialPoseStage::restarts(const SE3& centre, const LocalMap& map, const Deadline& deadline) const {
-  const PoseGrid grid{config_.search_shift_m, kSearchStepM, config_.search_yaw_rad, kSearchStepRad};
-  return search_poses(compensated_, map, centre, grid, kSearchSigmaM, kSearchStarts, deadline);
+std::vector<SE3> InitialPoseStage::restarts(const Situation& situation) const {
+  PoseGrid grid{config_.search_shift_m, kSearchStepM, config_.search_yaw_rad, kSearchStepRad};
+  SE3 centre = situation.predicted.T_odom_lidar;
+  if (situation.reach) {
+    const Reach& reach = *situation.reach;
+    centre = reach.T_odom_centre;
+    grid.max_shift_m = std::max(grid.max_shift_m, std::min(kReachSigmas * reach.sigma_m, kMostShiftM));
+    grid.max_yaw_rad = std::max(grid.max_yaw_rad, std::min(kReachSigmas * reach.sigma_rad, std::numbers::pi));
+  }
+  return search_poses(compensated_, situation.map, centre, grid, kSearchSigmaM, kSearchStarts,
+                      situation.deadline.after(kSearchShare));
 }
 
 double InitialPoseStage::score(const TimedCloud& source, const MotionState& state, const LocalMap& map) const {

@@ -11,6 +11,7 @@
 #include "cloud/timed_cloud.hpp"
 #include "cloud/voxel_sampler.hpp"
 #include "map/local_map.hpp"
+#include "odometry/reach.hpp"
 #include "registration/adaptive_icp.hpp"
 #include "registration/coarse_registration.hpp"
 #include "rilo/odometry/odometry_config.hpp"
@@ -56,9 +57,10 @@ class InitialPoseStage {
     /// The map holds one sweep, compensated for predicted.twist: only a sweep compensated for the same looks like it,
     /// whatever motion its candidate implies.
     bool single = false;
-    bool in_doubt = false;      ///< the prediction must not be trusted whatever its score (start, after a loss)
-    Deadline deadline = {};     ///< of the coarse stage
-    double coarse_share = 1.0;  ///< of the points of the coarse stage
+    bool in_doubt = false;            ///< the prediction must not be trusted whatever its score (start, after a loss)
+    std::optional<Reach> reach = {};  ///< after a gap: where the sensor may be, from the motion before
+    Deadline deadline = {};           ///< of the coarse stage
+    double coarse_share = 1.0;        ///< of the points of the coarse stage
   };
 
   /// Chooses the initial pose of a sweep.
@@ -114,9 +116,8 @@ class InitialPoseStage {
   DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points, double share);
   /// Whether a score is not far below the usual one.
   bool is_consistent(double score) const;
-  /// Further starts for the coarse stage: the best poses of a search around `centre`, on the sweep as compensated
-  /// last.
-  std::vector<SE3> restarts(const SE3& centre, const LocalMap& map, const Deadline& deadline) const;
+  /// Further starts for the coarse stage: the best poses of a search, on the sweep as compensated last.
+  std::vector<SE3> restarts(const Situation& situation) const;
 
   InitialPoseConfig config_;
   CoarseRegistrationConfig coarse_;

@@ -35,6 +35,11 @@ Matrix6d acceleration_density(const MotionPriorConfig& config) {
   return density.asDiagonal();
 }
 
+Matrix6d pose_covariance_after(const Matrix6d& velocity_covariance, double dt_s, const MotionPriorConfig& config) {
+  const double dt2 = dt_s * dt_s;
+  return dt2 * velocity_covariance + dt2 * std::abs(dt_s) / 3.0 * acceleration_density(config);
+}
+
 MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_covariance, const TimeStep& step,
                          const MotionPriorConfig& config) {
   MotionPrior prior;
@@ -46,10 +51,9 @@ MotionPrior motion_prior(const MotionState& predicted, const Matrix6d& velocity_
   const Matrix6d& V = velocity_covariance;
   const double dt_s = step.s;
   const double lag_s = std::abs(dt_s);  // a random walk is one backwards, too
-  const double dt2 = dt_s * dt_s;
   const Vector6d off = step.error_s * predicted.twist_in_odom();
   Matrix12d P;
-  P.topLeftCorner<6, 6>() = dt2 * V + dt2 * lag_s / 3.0 * Q + off * off.transpose();
+  P.topLeftCorner<6, 6>() = pose_covariance_after(V, dt_s, config) + off * off.transpose();
   P.topRightCorner<6, 6>() = dt_s * V + dt_s * lag_s / 2.0 * Q;
   P.bottomLeftCorner<6, 6>() = P.topRightCorner<6, 6>().transpose();
   P.bottomRightCorner<6, 6>() = V + lag_s * Q;

@@ -12,6 +12,9 @@ Matrix6d unknown_velocity_covariance();
 /// Power density Q of the acceleration, white noise ([rad/s²; m/s²] squared times s).
 Matrix6d acceleration_density(const MotionPriorConfig& config);
 
+/// Covariance of the pose, [rad; m] squared, `dt_s` after a certain one, when the velocity performs a random walk.
+Matrix6d pose_covariance_after(const Matrix6d& velocity_covariance, double dt_s, const MotionPriorConfig& config);
+
 /// Time from one sweep to another.
 struct TimeStep {
   double s = 0;        ///< < 0: to an earlier one

@@ -85,6 +85,13 @@ MotionPrior MotionTracker::prior_before(const IcpResult& present) const {
   return motion_prior({T_before, present.state.twist}, velocity_covariance_of(present), step, turn_noise_.expected());
 }
 
+Reach MotionTracker::reach() const {
+  const double dt_s = since_trusted_s();
+  const Vector6d variance = pose_covariance_after(velocity_covariance_, dt_s, turn_noise_.expected()).diagonal();
+  return {expected_motion(trusted_state_, dt_s).T_odom_lidar, std::sqrt(variance.tail<3>().maxCoeff()),
+          std::sqrt(variance.head<3>().maxCoeff())};
+}
+
 MotionVerdict MotionTracker::weigh(const SE3& T_odom_lidar) const {
   const SE3 motion = trusted_state_.T_odom_lidar.inverse() * T_odom_lidar;
   const TimeStep step = since_trusted();

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "odometry/motion_prior.hpp"
+#include "odometry/reach.hpp"
 #include "odometry/stamp_trust.hpp"
 #include "odometry/sweep_clock.hpp"
 #include "odometry/turn_noise.hpp"
@@ -53,6 +54,9 @@ class MotionTracker {
   MotionPrior prior(const std::optional<MotionState>& refuted) const;
   /// Prior of the last accepted sweep, from the present one as registered.
   MotionPrior prior_before(const IcpResult& present) const;
+
+  /// Where the sensor may be now, had it gone on as before the last trusted pose.
+  Reach reach() const;
 
   MotionVerdict weigh(const SE3& T_odom_lidar) const;
 

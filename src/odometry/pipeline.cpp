@@ -16,6 +16,7 @@ namespace rilo {
 
 namespace {
 constexpr double kCoarseShare = 0.5;  // of the time left; the rest is for what follows the coarse stage
+constexpr double kGapPeriods = 3.5;   // over two missing sweeps the prediction still leads to the basin
 constexpr double kLeastCoarse = 0.3;  // of its points; with fewer it finds nothing
 
 std::size_t workers(const OdometryConfig& config) {
@@ -128,7 +129,7 @@ InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const M
   const double left_ms = kCoarseShare * (budget_.target_ms() - clock_.total_ms());
   const double coarse_share = std::max(kLeastCoarse, budget_.share_in_time(budget_.ms(Work::kCoarseStart), left_ms));
   InitialPose init = initial_pose_.choose({prepared.source, predicted, tracker_.trusted().T_odom_lidar, twist_at,
-                                           map_.map(), map_.first_can_be_compensated(), in_doubt(),
+                                           map_.map(), map_.first_can_be_compensated(), in_doubt(), reach(),
                                            deadline(0.0).after(kCoarseShare), coarse_share});
   record(init, result.stats);
   result.stats.times.initial_pose_ms = clock_.lap_ms();
@@ -186,7 +187,8 @@ Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& reg
   const MotionVerdict motion = tracker_.weigh(registration.icp.state.T_odom_lidar);
   const Judgement judgement =
       judge_.judge(prepared, registration, motion,
-                   {map_.sweeps(), initial_pose_.expected_score(), initial_pose_.usual_quality(), tracker_.lost()});
+                   {map_.sweeps(), initial_pose_.expected_score(), initial_pose_.usual_quality(), tracker_.lost(),
+                    periods_since_trusted() > kGapPeriods});
   result.stats.map_score = registration.score;
   result.status = judgement.status;
   return judgement;
@@ -253,7 +255,7 @@ void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted,
     return;  // nothing contradicts the map
   }
   contradicted_ = true;
-  if (judge_.give_up(established())) {
+  if (judge_.give_up(established(), periods_since_trusted())) {
     begin_map(prepared, predicted, result);
   }
 }
@@ -310,6 +312,16 @@ double Pipeline::start_over() {
   shares_ = {};
   last_step_.setZero();
   return calibration_.elevation().applied_rad();
+}
+
+double Pipeline::periods_since_trusted() const {
+  return tracker_.since_trusted_s() / (1e-9 * static_cast<double>(sweep_clock_.period_ns()));
+}
+
+std::optional<Reach> Pipeline::reach() const {
+  // Where a sweep was not found there, it may lie elsewhere: the clock may have been set forward.
+  const bool known = established() && !tracker_.lost() && config_.initial_pose.restarts;
+  return known && periods_since_trusted() > kGapPeriods ? std::optional(tracker_.reach()) : std::nullopt;
 }
 
 bool Pipeline::in_doubt() const { return !established() || tracker_.lost(); }

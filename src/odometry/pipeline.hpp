@@ -60,6 +60,10 @@ class Pipeline {
   void finish(SweepResult& result);
 
   bool established() const;
+  /// Time since the last sweep that was accepted.
+  double periods_since_trusted() const;
+  /// After a gap.
+  std::optional<Reach> reach() const;
   bool in_doubt() const;
   Deadline deadline(double reserve_ms) const;
 

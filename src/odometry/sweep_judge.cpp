@@ -1,5 +1,7 @@
 #include "odometry/sweep_judge.hpp"
 
+#include <algorithm>
+
 #include "odometry/optimum.hpp"
 #include "odometry/pose_noise.hpp"
 #include "odometry/running_mean.hpp"
@@ -13,6 +15,8 @@ constexpr double kShrunk = 1.0 / 3.0;         // of the last median range: doors
 constexpr double kFitsWorse = 0.9;            // of the usual quality: right sweeps hardly ever fit that much worse
 constexpr double kFitsMuchWorse = 1.0 / 3.0;  // of the usual quality: most such sweeps are wrong, whatever they see
 constexpr double kFoundAgain = 0.7;           // of the usual score: below it most places that a search finds are wrong
+constexpr double kClose = 2.0;     // times the usual residuals, or a share of the usual quality (experiment: long gaps)
+constexpr int kTriesAfterGap = 3;  // each takes a search; few sweeps that the first ones did not place fit later
 constexpr double kSeesLess = 0.25;  // of the usual least eigenvalue: right sweeps that fit worse hardly ever do
 /// Out of time while the points still moved by more than that: each update leaves about as much as it was. (With 0.03 m
 /// hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are.)
@@ -36,9 +40,13 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   // A search looks at so many places that one of them fits by chance; that two sweeps agree on one is none.
   const bool found_by_chance =
       before.was_lost && motion != MotionVerdict::kJump && registration.score < kFoundAgain * before.usual_score;
-  evidence.displaced = fits_worse || found_by_chance || !registration.stands_out;
+  // After a gap the map may end where the sensor is: what counts is how closely the sweep fits, not how much of it.
+  const bool after_gap = before.after_gap && usual_residual_m_ > 0.0;
+  const bool map_may_end = after_gap && !is_degenerate(registration.icp, config_);
+  evidence.displaced = (!map_may_end && (fits_worse || found_by_chance)) || !registration.stands_out ||
+                       (after_gap && !fits_closely(registration, before.usual_quality));
   evidence.map_sweeps = before.map_sweeps;
-  evidence.usual_score = before.usual_score;
+  evidence.usual_score = map_may_end ? 0.0 : before.usual_score;
   evidence.was_lost = before.was_lost;
   evidence.shrunk = prepared.median_range_m < kShrunk * median_range_m_;
   evidence.cut_off = cut_off(registration.icp, prepared.median_range_m);
@@ -47,9 +55,26 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
           rilo::fits_map(registration.icp, evidence, config_)};
 }
 
+/// Hardly a wrong sweep comes to rest with residuals like those of right ones; one whose matches had to be held has to
+/// fit in both.
+bool SweepJudge::fits_closely(const Registration& registration, double usual_quality) const {
+  return settled(registration.icp) ? registration.icp.residual_rms_m <= kClose * usual_residual_m_
+                                   : registration.quality >= usual_quality / kClose;
+}
+
+bool SweepJudge::give_up(bool established, double since_last) {
+  ++lost_in_a_row_;
+  if (!established) {
+    return true;
+  }
+  const bool long_ago = since_last >= config_.restart_after;
+  return lost_in_a_row_ >= (long_ago ? std::min(config_.restart_after, kTriesAfterGap) : config_.restart_after);
+}
+
 void SweepJudge::accept(const PreparedSweep& prepared, const Registration& registration) {
   median_range_m_ = prepared.median_range_m;
   follow(usual_eigenvalue_, registration.icp.degeneracy.relative_eigenvalues[0]);
+  follow(usual_residual_m_, registration.icp.residual_rms_m);
   lost_in_a_row_ = 0;
   begun_in_a_row_ = 0;
 }

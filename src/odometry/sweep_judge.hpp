@@ -16,6 +16,7 @@ struct JudgedAgainst {
   double usual_score = 0;      ///< map score of the sweeps before
   double usual_quality = 0;    ///< quality_of() of them
   bool was_lost = false;       ///< the sweep before was lost
+  bool after_gap = false;      ///< the motion to it is hardly known
 };
 
 /// Verdict on one registered sweep.
@@ -38,18 +39,22 @@ class SweepJudge {
   void begin(const PreparedSweep& prepared) {
     median_range_m_ = prepared.median_range_m;
     usual_eigenvalue_ = 0.0;
+    usual_residual_m_ = 0.0;
     lost_in_a_row_ = 0;
     ++begun_in_a_row_;
   }
-  /// Counts a lost sweep. True when the map has not fitted for too long; one that is not `established` may itself be
-  /// the wrong one and is given up at once.
-  bool give_up(bool established) { return ++lost_in_a_row_ >= (established ? config_.restart_after : 1); }
+  /// Counts a lost sweep. True when the map has not fitted for too long, missing sweeps included: `since_last` periods
+  /// after the last one that did. A map that is not `established` may itself be the wrong one and is given up at once.
+  bool give_up(bool established, double since_last);
 
   void reset() { *this = SweepJudge(config_); }
 
  private:
+  bool fits_closely(const Registration& registration, double usual_quality) const;
+
   HealthConfig config_;
   double median_range_m_ = 0;    // of the last sweep in the map
+  double usual_residual_m_ = 0;  // of the sweeps in the map; 0: unknown
   double usual_eigenvalue_ = 0;  // least relative one of the sweeps in the map; 0: unknown
   int lost_in_a_row_ = 0;
   int begun_in_a_row_ = 0;  // maps, without a second sweep

@@ -96,13 +96,13 @@ class InitialPoseInAHall : public ::testing::Test {
 
   /// The sweep was taken at `truth`; the sensor was last in the origin.
   InitialPose choose(InitialPoseStage& stage, const SE3& truth, const SE3& predicted, bool in_doubt,
-                     const Deadline& deadline = {}) const {
+                     const Deadline& deadline = {}, const std::optional<Reach>& reach = {}) const {
     const TimedCloud source{seen_from(truth, 0.2)};
     MotionState state;
     state.T_odom_lidar = predicted;
     const SE3 previous = SE3::Identity();
     const std::function<Vector6d(const SE3&)> at_rest = [](const SE3&) { return Vector6d(Vector6d::Zero()); };
-    return stage.choose({source, state, previous, at_rest, map_, false, in_doubt, deadline});
+    return stage.choose({source, state, previous, at_rest, map_, false, in_doubt, reach, deadline});
   }
 
   LocalMap map_{LocalMapConfig{}};
@@ -174,6 +174,18 @@ TEST_F(InitialPoseInAHall, AnAbruptTurnIsFoundByTheSearchOnTheMap) {
   EXPECT_EQ(choice.source, InitialPoseSource::kCoarse);
   EXPECT_LT((choice.T_odom_lidar.inverse() * truth).translation().norm(), 0.1);
   EXPECT_LT(rotation_angle_rad(choice.T_odom_lidar.inverse() * truth), 0.02);
+}
+
+TEST_F(InitialPoseInAHall, AfterAGapItLiesWhereTheMotionBeforeLeads) {
+  const SE3 predicted = moved(6.0, 4.0, 0.8);
+  const std::optional<Reach> reach = Reach{predicted, 1.0, 0.2};
+  InitialPoseStage stage = begun();
+  const InitialPose elsewhere = choose(stage, SE3::Identity(), predicted, true, {}, reach);
+  EXPECT_GT(elsewhere.T_odom_lidar.translation().norm(), 4.0) << "at rest the sweep would fit";
+  const SE3 truth = moved(1.5, -1.0, 1.2);
+  const InitialPose turned = choose(stage, truth, SE3::Identity(), true, {}, Reach{moved(3.0, 1.0, 0.0), 2.0, 0.7});
+  EXPECT_LT((turned.T_odom_lidar.inverse() * truth).translation().norm(), 0.1) << "beyond the usual search";
+  EXPECT_LT(rotation_angle_rad(turned.T_odom_lidar.inverse() * truth), 0.02);
 }
 
 TEST_F(InitialPoseInAHall, ASearchThatRanOutOfTimeGoesOnWithTheMapInTheNextSweep) {

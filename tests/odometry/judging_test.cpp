@@ -267,18 +267,18 @@ TEST(SweepJudge, AMotionThatIsImpossibleIsAClaim) {
 
 TEST(SweepJudge, AnEstablishedMapIsGivenUpAfterTenLossesInARow) {
   SweepJudge judge(kHealth);
-  EXPECT_TRUE(judge.give_up(false)) << "a young map may be the wrong one";
+  EXPECT_TRUE(judge.give_up(false, 1.0)) << "a young map may be the wrong one";
   judge.begin(sweep_of(10.0));
   for (int round = 0; round < 2; ++round) {
     for (int lost = 1; lost < kHealth.restart_after; ++lost) {
-      EXPECT_FALSE(judge.give_up(true)) << lost;
+      EXPECT_FALSE(judge.give_up(true, lost)) << lost;
     }
     judge.accept(sweep_of(10.0), fitting());
   }
   for (int lost = 1; lost < kHealth.restart_after; ++lost) {
-    judge.give_up(true);
+    judge.give_up(true, lost);
   }
-  EXPECT_TRUE(judge.give_up(true));
+  EXPECT_TRUE(judge.give_up(true, kHealth.restart_after));
 }
 
 TEST(SweepJudge, AfterTenBeginningsInARowASecondSweepMayLeaveADirectionOpen) {

@@ -132,6 +132,15 @@ def stretches(drive, sweeps, middle):
     return [Entry(drive, i, 0.1 * k) for k, i in enumerate(numbers)]
 
 
+def long_gaps(drive, sweeps, middle):
+    """From the first sweep that is used on, 150: without 1, 1.5 and 2 seconds of them."""
+    numbers = range(drive.first, drive.first + 150)
+    if not drive.truth_file or numbers[-1] >= len(drive.files):
+        return None
+    missing = {k + drive.first for k in (*range(40, 50), *range(70, 85), *range(110, 130))}
+    return [Entry(drive, i, drive.stamps[i]) for i in numbers if i not in missing]
+
+
 def cover(points, times):
     """A cloth over the sensor: everything within 2 m, nothing of the place is left."""
     azimuth = np.arctan2(points[:, 1], points[:, 0])
@@ -167,6 +176,7 @@ FAULTS = {
     "half": edited(lambda points, times: (points[: len(points) // 2], times[: len(points) // 2])),
     "slow": slow,
     "stretches": stretches,
+    "long_gaps": long_gaps,
 }
 
 

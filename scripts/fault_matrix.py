@@ -14,7 +14,7 @@ PLAN is a JSON object, a drive a key:
            have that fault
   truth    poses of all sweeps of the folder, LiDAR frame, KITTI form, at the instant of the poses that the program
            gives. Without it the run without a fault is the truth: for real drives whose truth is noisier than that;
-           they do not have the fault `stretches`
+           they do not have the faults `stretches` and `long_gaps`
   times    times.txt, where it does not lie in the folder
   foreign  a folder whose sweeps are of a place elsewhere: the middle one is the foreign sweep
   flags    further flags of `rilo run`

@@ -185,10 +185,9 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
 
 Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& registration, SweepResult& result) {
   const MotionVerdict motion = tracker_.weigh(registration.icp.state.T_odom_lidar);
-  const Judgement judgement =
-      judge_.judge(prepared, registration, motion,
-                   {map_.sweeps(), initial_pose_.expected_score(), initial_pose_.usual_quality(), tracker_.lost(),
-                    periods_since_trusted() > kGapPeriods});
+  const Judgement judgement = judge_.judge(
+      prepared, registration, motion,
+      {map_.sweeps(), initial_pose_.expected_score(), initial_pose_.usual_quality(), tracker_.lost(), after_gap()});
   result.stats.map_score = registration.score;
   result.status = judgement.status;
   return judgement;
@@ -318,10 +317,12 @@ double Pipeline::periods_since_trusted() const {
   return tracker_.since_trusted_s() / (1e-9 * static_cast<double>(sweep_clock_.period_ns()));
 }
 
+bool Pipeline::after_gap() const { return periods_since_trusted() - judge_.lost_in_a_row() > kGapPeriods; }
+
 std::optional<Reach> Pipeline::reach() const {
   // Where a sweep was not found there, it may lie elsewhere: the clock may have been set forward.
   const bool known = established() && !tracker_.lost() && config_.initial_pose.restarts;
-  return known && periods_since_trusted() > kGapPeriods ? std::optional(tracker_.reach()) : std::nullopt;
+  return known && after_gap() ? std::optional(tracker_.reach()) : std::nullopt;
 }
 
 bool Pipeline::in_doubt() const { return !established() || tracker_.lost(); }

@@ -62,6 +62,8 @@ class Pipeline {
   bool established() const;
   /// Time since the last sweep that was accepted.
   double periods_since_trusted() const;
+  /// Whether sweeps are missing since then, those that were lost left out.
+  bool after_gap() const;
   /// After a gap.
   std::optional<Reach> reach() const;
   bool in_doubt() const;

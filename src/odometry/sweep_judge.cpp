@@ -40,9 +40,10 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   // A search looks at so many places that one of them fits by chance; that two sweeps agree on one is none.
   const bool found_by_chance =
       before.was_lost && motion != MotionVerdict::kJump && registration.score < kFoundAgain * before.usual_score;
-  // After a gap the map may end where the sensor is: what counts is how closely the sweep fits, not how much of it.
+  // After a gap the map may end where the sensor is: what counts is how closely the sweep fits, not how much of it,
+  // as long as it shows all directions about as usual.
   const bool after_gap = before.after_gap && usual_residual_m_ > 0.0;
-  const bool map_may_end = after_gap && !is_degenerate(registration.icp, config_);
+  const bool map_may_end = after_gap && !sees_less && !is_degenerate(registration.icp, config_);
   evidence.displaced = (!map_may_end && (fits_worse || found_by_chance)) || !registration.stands_out ||
                        (after_gap && !fits_closely(registration, before.usual_quality));
   evidence.map_sweeps = before.map_sweeps;

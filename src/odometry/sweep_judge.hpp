@@ -16,7 +16,7 @@ struct JudgedAgainst {
   double usual_score = 0;      ///< map score of the sweeps before
   double usual_quality = 0;    ///< quality_of() of them
   bool was_lost = false;       ///< the sweep before was lost
-  bool after_gap = false;      ///< the motion to it is hardly known
+  bool after_gap = false;      ///< sweeps are missing since the last one that was accepted
 };
 
 /// Verdict on one registered sweep.
@@ -46,6 +46,7 @@ class SweepJudge {
   /// Counts a lost sweep. True when the map has not fitted for too long, missing sweeps included: `since_last` periods
   /// after the last one that did. A map that is not `established` may itself be the wrong one and is given up at once.
   bool give_up(bool established, double since_last);
+  int lost_in_a_row() const { return lost_in_a_row_; }
 
   void reset() { *this = SweepJudge(config_); }
 

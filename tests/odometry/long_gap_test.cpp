@@ -96,6 +96,17 @@ TEST_F(AfterAGap, WithHeldMatchesHalfOfTheQualityMustBeLeft) {
   EXPECT_EQ(status(false), OdometryStatus::kOk);
 }
 
+// A sweep of a stretch elsewhere, on other houses: they show the way a quarter as well.
+TEST_F(AfterAGap, WhatShowsADirectionMuchLessMustFitAsUsualToo) {
+  found_.score = 0.35;
+  found_.icp.degeneracy.relative_eigenvalues[0] = 0.26;
+  EXPECT_EQ(status(true, true), OdometryStatus::kRecovered);
+  found_.icp.degeneracy.relative_eigenvalues[0] = 0.24;
+  EXPECT_EQ(status(true, true), OdometryStatus::kLost);
+  found_.score = 0.57;
+  EXPECT_EQ(status(true, true), OdometryStatus::kRecovered);
+}
+
 TEST_F(AfterAGap, WhatLeavesADirectionOpenMustFitAsUsualToo) {
   found_.icp.degeneracy.relative_eigenvalues[0] = 0.001;
   EXPECT_EQ(status(), OdometryStatus::kDegenerate);

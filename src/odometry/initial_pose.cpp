@@ -21,8 +21,8 @@ constexpr std::size_t kManyPoints = 5000;  // where few of them make the differe
 constexpr double kSearchSigmaM = 0.3;      // more tolerant than the score: it only has to find the basin
 constexpr double kSearchStepM = 0.5;       // within the reach of the coarse stage
 constexpr double kSearchStepRad = 0.1;
-constexpr double kReachSigmas = 2.0;      // of the motion in a gap, searched (experiment: long gaps)
-constexpr double kMostShiftM = 10.0;      // beyond it the search takes longer than the gap
+constexpr double kReachSigmas = 1.5;      // of the motion in a gap: each way costs time (experiment: long gaps)
+constexpr double kMostShiftM = 10.0;      // half a second on one thread
 constexpr double kSearchShare = 0.6;      // of the time left; the coarse stage from what was found needs the rest
 constexpr std::size_t kSearchStarts = 4;  // the cost of each is one registration
 // A cloud compensated for a slightly wrong velocity serves as a target: at either end of a sweep of 0.1 s it is off by

@@ -58,7 +58,7 @@ struct HealthConfig {
   double lost_share = 0.5;           ///< lost when the map score falls below this share of the usual one
   double least_score = 0.1;          ///< second and third sweep of a map: lost below it, as wrong ones are
   double degenerate_ratio = 0.0045;  ///< a relative eigenvalue below it means a direction is not constrained
-  int restart_after = 10;            ///< sweeps lost in a row after which a new map starts at the predicted pose
+  int restart_after = 10;  ///< sweeps lost or missing in a row, three of them lost, after which a new map starts
 };
 
 /// Limits of the motion of a sensor, on a vehicle or in a hand. A registration beyond them is lost.

@@ -93,7 +93,7 @@ InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bo
   const bool resumed = std::exchange(restarts_due_, false);
   if (!resumed) {
     try_from(situation, predicted.T_odom_lidar, found);
-    // No motion; but at rest a sensor at speed does not spend a gap: there its turn may have ended.
+    // From rest; after a gap, which a sensor at speed does not spend at rest, from where its turn has faded.
     const SE3& other = situation.reach ? situation.reach->T_odom_centre : situation.previous;
     if (doubt && !predicted.T_odom_lidar.isApprox(other) && !is_consistent(found.best.score)) {
       try_from(situation, other, found);
@@ -107,7 +107,7 @@ InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bo
         break;
       }
       try_from(situation, start, found);
-      if (situation.single || resumed || situation.reach) {
+      if (situation.single || resumed) {
         consider(situation, start, found.best);
       }
     }

@@ -55,7 +55,7 @@ class MotionTracker {
   /// Prior of the last accepted sweep, from the present one as registered.
   MotionPrior prior_before(const IcpResult& present) const;
 
-  /// Where the sensor may be now, had it gone on as before the last trusted pose.
+  /// Where the sensor may be now, from the motion up to the last trusted pose.
   Reach reach() const;
 
   MotionVerdict weigh(const SE3& T_odom_lidar) const;

@@ -64,7 +64,7 @@ class Pipeline {
   double periods_since_trusted() const;
   /// Whether sweeps are missing since then, those that were lost left out.
   bool after_gap() const;
-  /// After a gap.
+  /// Where the sensor may be, after a gap.
   std::optional<Reach> reach() const;
   bool in_doubt() const;
   Deadline deadline(double reserve_ms) const;

@@ -15,9 +15,9 @@ constexpr double kShrunk = 1.0 / 3.0;         // of the last median range: doors
 constexpr double kFitsWorse = 0.9;            // of the usual quality: right sweeps hardly ever fit that much worse
 constexpr double kFitsMuchWorse = 1.0 / 3.0;  // of the usual quality: most such sweeps are wrong, whatever they see
 constexpr double kFoundAgain = 0.7;           // of the usual score: below it most places that a search finds are wrong
+constexpr double kSeesLess = 0.25;  // of the usual least eigenvalue: right sweeps that fit worse hardly ever do
 constexpr double kClose = 2.0;     // times the usual residuals, or a share of the usual quality (experiment: long gaps)
 constexpr int kTriesAfterGap = 3;  // each takes a search; few sweeps that the first ones did not place fit later
-constexpr double kSeesLess = 0.25;  // of the usual least eigenvalue: right sweeps that fit worse hardly ever do
 /// Out of time while the points still moved by more than that: each update leaves about as much as it was. (With 0.03 m
 /// hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are.)
 bool cut_off(const IcpResult& icp, double range_m) {
@@ -64,12 +64,9 @@ bool SweepJudge::fits_closely(const Registration& registration, double usual_qua
 }
 
 bool SweepJudge::give_up(bool established, double since_last) {
-  ++lost_in_a_row_;
-  if (!established) {
-    return true;
-  }
   const bool long_ago = since_last >= config_.restart_after;
-  return lost_in_a_row_ >= (long_ago ? std::min(config_.restart_after, kTriesAfterGap) : config_.restart_after);
+  const int most = long_ago ? std::min(config_.restart_after, kTriesAfterGap) : config_.restart_after;
+  return ++lost_in_a_row_ >= (established ? most : 1);
 }
 
 void SweepJudge::accept(const PreparedSweep& prepared, const Registration& registration) {

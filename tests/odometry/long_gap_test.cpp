@@ -1,7 +1,5 @@
 // Sweeps that come long after the last: where they are searched, and when they are believed.
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include <gtest/gtest.h>
 

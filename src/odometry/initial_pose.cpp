@@ -9,6 +9,7 @@
 #include "odometry/pose_noise.hpp"
 #include "odometry/running_mean.hpp"
 #include "registration/map_score.hpp"
+#include "registration/pose_grid.hpp"
 
 namespace rilo {
 

@@ -164,6 +164,7 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
       .sigma_th_m = threshold_.sigma_th_m(),
       .usual_sigma_th_m = threshold_.usual_sigma_th_m(),
       .period_s = period_s,
+      .after_gap = after_gap(),
       .contradicted = contradicted_,
       .deadline = end,
       .first_map_ms = budget_.ms(Work::kInsert, static_cast<double>(map_.first_cloud().size()) + map_points)};

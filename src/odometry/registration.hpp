@@ -44,6 +44,7 @@ struct RegistrationParts {
   double sigma_th_m = 0;
   double usual_sigma_th_m = 0;  ///< the same without the growth after failures
   double period_s = 0;          ///< usual time between sweeps
+  bool after_gap = false;       ///< sweeps are missing before this one
   bool contradicted = false;    ///< a sweep since the trusted one did not fit; false: they were empty
   Deadline deadline = {};       ///< of the registration
   double first_map_ms = 0;      ///< how long it takes to put the first sweep into a map, and this one

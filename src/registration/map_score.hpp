@@ -1,4 +1,4 @@
-// How well a pose explains the local map, and a search over poses by that measure.
+// How well a pose explains the local map.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include "map/local_map.hpp"
-#include "registration/deadline.hpp"
 #include "rilo/geometry/se3.hpp"
 
 namespace rilo {
@@ -27,18 +26,5 @@ bool stands_out(const std::vector<Eigen::Vector3f>& points, const LocalMap& map,
 
 /// At most `count` points of `points`, evenly spread over their order.
 std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& points, std::size_t count);
-
-/// Grid of poses around a centre: yaw about the sensor's own z axis, then shifts along its x and y axes.
-struct PoseGrid {
-  double max_shift_m = 4.0;
-  double shift_step_m = 0.5;
-  double max_yaw_rad = 0.0;
-  double yaw_step_rad = 0.1;
-};
-
-/// The `keep` best poses of the grid around `centre` by map_score, best first, no two of them closer than two steps to
-/// each other. After the deadline no further pose is scored; the nearest ones come first.
-std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre,
-                              const PoseGrid& grid, double sigma_m, std::size_t keep, const Deadline& deadline = {});
 
 }  // namespace rilo

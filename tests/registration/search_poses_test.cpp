@@ -1,10 +1,12 @@
 // The search over poses by map score.
 #include <atomic>
+#include <limits>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include "registration/map_score.hpp"
+#include "registration/pose_grid.hpp"
 #include "registration/registration_scenes.hpp"
 
 namespace rilo {
@@ -32,10 +34,28 @@ TEST(SearchPoses, FindsAKnownShiftAndTurn) {
   }
 }
 
+TEST(SearchPoses, OfAWideGridFewNodesAreScored) {
+  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
+  const PoseGrid grid{8.0, 0.5, 1.6, 0.1};  // not half a turn, which a room allows
+  SE3 seen = SE3::Identity();
+  seen.translation() = Eigen::Vector3d(0.5, -1.0, 0.0);
+  const auto points = test::seen_from(seen, test::rimless_room(0.6, 0.3, 1.2));
+  const SE3 centre = seen * se3_exp(twist(0, 0, 0, -6.5, 4.0, 0)) * se3_exp(twist(0, 0, -1.0, 0, 0, 0));
+  std::atomic<std::int64_t> scored = 0;
+  const Deadline::Clock counting = [&] { return ++scored; };
+  const std::int64_t never = std::numeric_limits<std::int64_t>::max();
+  const auto best = search_poses(points, map, centre, grid, 0.3, 4, Deadline(counting, never));
+  ASSERT_FALSE(best.empty());
+  EXPECT_LT(test::distance_m(best[0], seen), 0.36);  // half a step along both axes
+  EXPECT_LT(test::angle_deg(best[0], seen), 3.0);
+  const std::int64_t nodes = 797 * 33;  // shifts within 16 steps, turns
+  EXPECT_LT(scored, nodes / 5);
+}
+
 TEST(SearchPoses, AfterTheDeadlineOnlyTheNearestWereScored) {
   const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
   const auto points = test::seen_from(SE3::Identity(), test::rimless_room(0.6, 0.3, 1.2));
-  const PoseGrid grid{1.5, 0.5, 0.4, 0.1};
+  const PoseGrid grid{6.0, 0.5, 1.0, 0.1};
   std::atomic<std::int64_t> now_ns = 0;
   const Deadline::Clock clock = [&] { return ++now_ns; };
   EXPECT_TRUE(search_poses(points, map, SE3::Identity(), grid, 0.2, 3, Deadline(clock, 0)).empty());
@@ -43,7 +63,7 @@ TEST(SearchPoses, AfterTheDeadlineOnlyTheNearestWereScored) {
   const auto best = search_poses(points, map, SE3::Identity(), grid, 0.2, 3, Deadline(clock, now_ns + 6));
   ASSERT_FALSE(best.empty());
   for (const SE3& T : best) {
-    EXPECT_LT(T.translation().norm(), 0.6);
+    EXPECT_LT(T.translation().norm(), 1.6);  // three steps
   }
 }
 

@@ -24,6 +24,7 @@ struct Node {
 // A few points rule out most of the nodes; the others are scored again with more points, and so on.
 constexpr int kBlock = 3;             // nodes along each axis that one of the first round stands for ...
 constexpr double kBlockSigmas = 1.5;  // ... with so much more tolerance
+static_assert(kBlock % 2 == 1, "a block has a node in its middle");
 constexpr std::size_t kFirstPoints = 40;
 constexpr std::size_t kMostPoints = 640;
 constexpr std::size_t kMorePoints = 4;       // times as many from round to round ...
@@ -131,13 +132,13 @@ void keep_best(std::vector<Node>& nodes) {
 
 std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& centre,
                               const PoseGrid& grid, double sigma_m, std::size_t keep, const Deadline& deadline) {
-  const Nodes pyramid(centre, grid);
-  const Scorer scorer(points, map, pyramid, deadline);
-  std::vector<Node> nodes = pyramid.blocks();
+  const Nodes all(centre, grid);
+  const Scorer scorer(points, map, all, deadline);
+  std::vector<Node> nodes = all.blocks();
   scorer.sort(nodes, kFirstPoints, kBlockSigmas * sigma_m);
   if (!deadline.passed()) {
     keep_best(nodes);
-    nodes = pyramid.within(nodes);
+    nodes = all.within(nodes);
     scorer.sort(nodes, kFirstPoints, sigma_m);
   }
   for (std::size_t count = kFirstPoints; count < std::min(points.size(), kMostPoints) && !deadline.passed();) {
@@ -156,7 +157,7 @@ std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const 
   }
   std::vector<SE3> poses;
   for (const Node& node : chosen) {
-    poses.push_back(pyramid.pose_of(node));
+    poses.push_back(all.pose_of(node));
   }
   return poses;
 }

@@ -61,8 +61,8 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
       return usual;
     }
   }
-  // Where the sensor cannot have moved so, the velocity before is what it started with. After a gap that
-  // takes time for nothing (experiment: search from coarse to fine).
+  // Where the sensor cannot have moved so, the velocity before is what it started with. After a gap to try it takes
+  // time for nothing (experiment: search from coarse to fine).
   const bool implied = refuted && !parts.after_gap && initial.twist != parts.tracker.trusted().twist;
   if (implied && parts.initial_pose.suspicious(found.quality) && !search.end().passed()) {
     retry_as_before(parts, search, found);

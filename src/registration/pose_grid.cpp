@@ -22,15 +22,27 @@ struct Node {
 };
 
 // A few points rule out most of the nodes; the others are scored again with more points, and so on.
-constexpr int kBlock = 3;             // nodes along each axis that one of the first round stands for ...
-constexpr double kBlockSigmas = 1.5;  // ... with so much more tolerance
-static_assert(kBlock % 2 == 1, "a block has a node in its middle");
+constexpr int kHalfBlock = 1;
+constexpr int kBlock = 2 * kHalfBlock + 1;  // nodes along each axis that one of the first round stands for ...
+constexpr double kBlockSigmas = 1.5;        // ... with so much more tolerance
 constexpr std::size_t kFirstPoints = 40;
 constexpr std::size_t kMostPoints = 640;
 constexpr std::size_t kMorePoints = 4;       // times as many from round to round ...
 constexpr std::size_t kSurvivors = 8;        // ... for an eighth of the nodes, ...
 constexpr std::size_t kLeastSurvivors = 50;  // ... but no fewer
 constexpr double kVoxelSigmas = 2.0;         // smaller voxels than this tell a search no more
+
+/// Calls use(yaw, x, y) for all steps within so many of none.
+template <class Use>
+void for_each_step(int yaws, int shifts, const Use& use) {
+  for (int yaw = -yaws; yaw <= yaws; ++yaw) {
+    for (int x = -shifts; x <= shifts; ++x) {
+      for (int y = -shifts; y <= shifts; ++y) {
+        use(yaw, x, y);
+      }
+    }
+  }
+}
 
 /// The nodes of a grid around its centre.
 class Nodes {
@@ -43,18 +55,14 @@ class Nodes {
 
   /// The middles of the blocks that the grid reaches into, nearest first.
   std::vector<Node> blocks() const {
-    const int shifts = (shifts_ + kBlock / 2) / kBlock;
-    const int yaws = (yaws_ + kBlock / 2) / kBlock;
+    const auto blocks = [](int steps) { return (steps + kHalfBlock) / kBlock; };
+    const auto nearest = [](int block) { return std::max(kBlock * std::abs(block) - kHalfBlock, 0); };
     std::vector<Node> middles;
-    for (int yaw = -yaws; yaw <= yaws; ++yaw) {
-      for (int x = -shifts; x <= shifts; ++x) {
-        for (int y = -shifts; y <= shifts; ++y) {
-          if (std::hypot(x, y) <= shifts + 0.5) {
-            middles.push_back({kBlock * yaw, kBlock * x, kBlock * y});
-          }
-        }
+    for_each_step(blocks(yaws_), blocks(shifts_), [&](int yaw, int x, int y) {
+      if (in_circle(nearest(x), nearest(y))) {
+        middles.push_back({kBlock * yaw, kBlock * x, kBlock * y});
       }
-    }
+    });
     std::stable_sort(middles.begin(), middles.end(),
                      [](const Node& a, const Node& b) { return distance2(a) < distance2(b); });
     return middles;
@@ -62,18 +70,14 @@ class Nodes {
 
   /// All nodes of some blocks.
   std::vector<Node> within(const std::vector<Node>& middles) const {
-    constexpr int kHalf = kBlock / 2;
     std::vector<Node> nodes;
     for (const Node& middle : middles) {
-      for (int yaw = middle.yaw - kHalf; yaw <= middle.yaw + kHalf; ++yaw) {
-        for (int x = middle.x - kHalf; x <= middle.x + kHalf; ++x) {
-          for (int y = middle.y - kHalf; y <= middle.y + kHalf; ++y) {
-            if (std::abs(yaw) <= yaws_ && x * x + y * y <= shifts_ * shifts_) {
-              nodes.push_back({yaw, x, y});
-            }
-          }
+      for_each_step(kHalfBlock, kHalfBlock, [&](int yaw, int x, int y) {
+        const Node node{middle.yaw + yaw, middle.x + x, middle.y + y};
+        if (std::abs(node.yaw) <= yaws_ && in_circle(node.x, node.y)) {
+          nodes.push_back(node);
         }
-      }
+      });
     }
     return nodes;
   }
@@ -88,6 +92,8 @@ class Nodes {
   static int distance2(const Node& n) { return n.yaw * n.yaw + n.x * n.x + n.y * n.y; }
 
  private:
+  bool in_circle(int x, int y) const { return x * x + y * y <= shifts_ * shifts_; }
+
   SE3 centre_;
   PoseGrid grid_;
   int shifts_;
@@ -109,8 +115,12 @@ class Scorer {
     const std::size_t level = map_.level_of(kVoxelSigmas * sigma_m);
     std::atomic<bool> late = false;
     for_each_index(nodes.size(), [&](std::size_t i) {
-      late = late || deadline_.passed();
-      nodes[i].score = late ? kNotScored : map_score(picked, map_, grid_.pose_of(nodes[i]), sigma_m, level);
+      if (late || deadline_.passed()) {
+        late = true;
+        nodes[i].score = kNotScored;
+      } else {
+        nodes[i].score = map_score(picked, map_, grid_.pose_of(nodes[i]), sigma_m, level);
+      }
     });
     std::stable_sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) {
       return a.score != b.score ? a.score > b.score : Nodes::distance2(a) < Nodes::distance2(b);

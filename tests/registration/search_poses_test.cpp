@@ -1,4 +1,5 @@
 // The search over poses by map score.
+#include <array>
 #include <atomic>
 #include <limits>
 
@@ -31,6 +32,18 @@ TEST(SearchPoses, FindsAKnownShiftAndTurn) {
   EXPECT_GE(map_score(points, map, best[1], 0.2), map_score(points, map, best[2], 0.2));
   for (std::size_t i = 1; i < best.size(); ++i) {
     EXPECT_TRUE(test::distance_m(best[0], best[i]) > 0.9 || test::angle_deg(best[0], best[i]) > 15.0);
+  }
+}
+
+TEST(SearchPoses, ReachesTheRim) {
+  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
+  for (const auto& [steps, x, y] : {std::array{10, 8, 6}, std::array{16, -11, 11}, std::array{13, 5, -12}}) {
+    SE3 rim = SE3::Identity();
+    rim.translation() = 0.1 * Eigen::Vector3d(x, y, 0.0);
+    const auto points = test::seen_from(rim, test::rimless_room(0.6, 0.3, 1.2));
+    const auto best = search_poses(points, map, SE3::Identity(), {0.1 * steps, 0.1, 0.0, 0.1}, 0.1, 1);
+    ASSERT_EQ(best.size(), 1U);
+    EXPECT_LT(test::distance_m(best[0], rim), 1e-9) << steps;
   }
 }
 

@@ -17,7 +17,8 @@ constexpr double kPlaceM = 1.0;            // edge of a place
 constexpr std::size_t kMostPlaces = 1000;  // enough to tell shares a tenth apart
 constexpr double kTellsApart = 0.3;        // least cosine between a normal and the direction of a motion that it shows
 constexpr double kReachSigmas = 3.0;
-constexpr double kSigmas = 3.0;  // of the difference of two overlaps, if it is to be none of chance
+constexpr double kCellReaches = 2.0;  // then what lies within reach of a point lies in eight cells
+constexpr double kSigmas = 3.0;       // of the difference of two overlaps, if it is to be none of chance
 
 /// One point a voxel, of surfaces that show the motion or of none.
 TimedCloud telling(const SweepOverlap::Seen& seen, const Vector6d& motion, double voxel_m) {
@@ -31,26 +32,38 @@ TimedCloud telling(const SweepOverlap::Seen& seen, const Vector6d& motion, doubl
   const auto way_of = [&](const Eigen::Vector3d& place) -> Eigen::Vector3d {
     return motion.tail<3>() + motion.head<3>().cross(place - seen.state.T_odom_lidar.translation());
   };
-  TimedCloud kept;
-  const auto keep = [&](std::size_t k, const Eigen::Vector3d& place, const PlaneSpot& spot) {
+  std::vector<char> tells(sampled.size(), 0);
+  const auto look_at = [&](std::size_t k, const Eigen::Vector3d& place, const PlaneSpot& spot) {
     const Eigen::Vector3d way = way_of(place);
-    if (!spot.scatter && std::abs(spot.grid->plane_at(spot).normal.dot(way)) < kTellsApart * way.norm()) {
-      return;
+    const bool along = !spot.scatter && std::abs(spot.grid->plane_at(spot).normal.dot(way)) < kTellsApart * way.norm();
+    tells[k] = along ? 0 : 1;
+  };
+  for_fixed_chunks(sampled.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+    seen.planes.visit<LocalMap::Wanted::kPlanesAndScatter>(first, last, point_at, look_at);
+  });
+  TimedCloud kept;
+  for (std::size_t k = 0; k < sampled.size(); ++k) {
+    if (tells[k] == 0) {
+      continue;
     }
     kept.points.push_back(seen.cloud.points[sampled[k]]);
     if (seen.cloud.timed()) {
       kept.offsets_s.push_back(seen.cloud.offsets_s[sampled[k]]);
     }
-  };
-  seen.planes.visit<LocalMap::Wanted::kPlanesAndScatter>(0, sampled.size(), point_at, keep);
+  }
   return kept;
 }
 }  // namespace
 
 SweepOverlap::SweepOverlap(const Seen& before, const Seen& sweep, const Vector6d& motion)
-    : T_odom_before_(before.state.T_odom_lidar),
-      before_(telling(before, motion, kSigmaM)),
-      places_(telling(sweep, motion, kPlaceM)) {
+    : T_odom_before_(before.state.T_odom_lidar) {
+  for_each_index(2, [&](std::size_t i) {
+    if (i == 0) {
+      before_ = telling(before, motion, kSigmaM);
+    } else {
+      places_ = telling(sweep, motion, kPlaceM);
+    }
+  });
   if (places_.size() > kMostPlaces) {
     places_ = thinned(places_, static_cast<double>(kMostPlaces) / static_cast<double>(places_.size()));
   }
@@ -59,7 +72,7 @@ SweepOverlap::SweepOverlap(const Seen& before, const Seen& sweep, const Vector6d
 PointGrid SweepOverlap::before(const BodyMotion& motion) const {
   std::vector<Eigen::Vector3f> points;
   deskew(before_, motion, points);
-  PointGrid grid(kReachSigmas * kSigmaM);
+  PointGrid grid(kCellReaches * kReachSigmas * kSigmaM);
   grid.build(points);
   return grid;
 }

@@ -104,12 +104,17 @@ bool near_one_another(const Node& a, const Node& b) {
   return std::abs(a.yaw - b.yaw) <= 2 && std::abs(a.x - b.x) <= 2 && std::abs(a.y - b.y) <= 2;
 }
 
-/// Scores nodes and sorts them, best first; among equal scores the smaller motion wins.
+void keep_best(std::vector<Node>& nodes) {
+  nodes.resize(std::max(nodes.size() / kSurvivors, std::min(nodes.size(), kLeastSurvivors)));
+}
+
+/// Scores nodes. What was not scored when time ran out comes last.
 class Scorer {
  public:
   Scorer(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const Nodes& grid, const Deadline& deadline)
       : points_(points), map_(map), grid_(grid), deadline_(deadline) {}
 
+  /// Best first; among equal scores the smaller motion wins.
   void sort(std::vector<Node>& nodes, std::size_t points, double sigma_m) const {
     const std::vector<Eigen::Vector3f> picked = evenly_picked(points_, points);
     const std::size_t level = map_.level_of(kVoxelSigmas * sigma_m);
@@ -127,16 +132,25 @@ class Scorer {
     });
   }
 
+  /// Leaves the best few, scored with more points from round to round.
+  void narrow(std::vector<Node>& nodes, double sigma_m) const {
+    std::size_t points = kFirstPoints;
+    sort(nodes, points, sigma_m);
+    while (nodes.size() > kLeastSurvivors && points < points_.size() && !deadline_.passed()) {
+      keep_best(nodes);
+      if (nodes.size() > kLeastSurvivors) {
+        points *= kMorePoints;
+        sort(nodes, points, sigma_m);
+      }
+    }
+  }
+
  private:
   const std::vector<Eigen::Vector3f>& points_;
   const LocalMap& map_;
   const Nodes& grid_;
   const Deadline& deadline_;
 };
-
-void keep_best(std::vector<Node>& nodes) {
-  nodes.resize(std::max(nodes.size() / kSurvivors, std::min(nodes.size(), kLeastSurvivors)));
-}
 
 }  // namespace
 
@@ -145,16 +159,13 @@ std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const 
   const Nodes all(centre, grid);
   const Scorer scorer(points, map, all, deadline);
   std::vector<Node> nodes = all.blocks();
-  scorer.sort(nodes, kFirstPoints, kBlockSigmas * sigma_m);
+  scorer.narrow(nodes, kBlockSigmas * sigma_m);
   if (!deadline.passed()) {
-    keep_best(nodes);
     nodes = all.within(nodes);
-    scorer.sort(nodes, kFirstPoints, sigma_m);
+    scorer.narrow(nodes, sigma_m);
   }
-  for (std::size_t count = kFirstPoints; count < std::min(points.size(), kMostPoints) && !deadline.passed();) {
-    count *= kMorePoints;
-    keep_best(nodes);
-    scorer.sort(nodes, count, sigma_m);
+  if (!deadline.passed()) {
+    scorer.sort(nodes, kMostPoints, sigma_m);
   }
   std::vector<Node> chosen;
   for (const Node& node : nodes) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "cloud/deskew.hpp"
 
@@ -117,6 +118,20 @@ TEST(SweepOverlaps, BothAreCompensatedForTheVelocityOfThePlace) {
   EXPECT_GT(at(overlap, state_on(kOnM, kSpeed), state_on(0.0, kSpeed).twist), 0.7);
   EXPECT_LT(at(overlap, state_on(kOnM, kSpeed)), 0.5) << "the first one not";
   EXPECT_LT(at(overlap, state_on(kOnM), state_on(0.0, kSpeed).twist), 0.5) << "the second one not";
+}
+
+TEST(SweepOverlaps, IsTheSameForAnyNumberOfThreads) {
+  const TimedCloud before = taken_at(1.0, street(0.0));
+  const TimedCloud sweep = taken_at(1.0, street(kOnM));
+  const auto matches_with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const SweepOverlap overlap = overlap_of(before, state_on(0.0, 1.0), sweep, state_on(kOnM, 1.0));
+    return overlap.matches(state_on(1.5, 1.0), overlap.before({state_on(0.0, 1.0).twist}));
+  };
+  const std::vector<double> one = matches_with(1);
+  EXPECT_GT(mean_match(one), 0.0);
+  EXPECT_EQ(matches_with(2), one);
+  EXPECT_EQ(matches_with(4), one);
 }
 
 TEST(SweepOverlaps, NothingHasNothingInCommon) {

@@ -24,13 +24,14 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   const SweepOverlap overlap = overlap_with_last(predicted, found);
   const PointGrid last = overlap.before(parts_.tracker.trusted().motion());
   const auto late = [&] { return looks_end.passed(); };
-  const auto most = most_overlap(
+  const std::vector<double> overlaps = overlaps_of(
       places.size(), [&](std::size_t i) { return overlap.at(places[i], last); }, late);
   found.cut = late();
   if (found.cut) {
     return;
   }
-  const MotionState& best = places[*most];
+  const auto most = std::max_element(overlaps.begin(), overlaps.end()) - overlaps.begin();
+  const MotionState& best = places[static_cast<std::size_t>(most)];
   const std::vector<double> of_found = overlap.matches(found.icp.state, last);
   if (!clearly_more(overlap.matches(best, last), of_found)) {
     return;

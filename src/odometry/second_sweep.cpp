@@ -13,7 +13,6 @@ namespace rilo {
 
 namespace {
 constexpr int kRounds = 4;                 // each compensates the first sweep with the velocity of the one before
-constexpr int kNearbyRounds = 2;           // the last ones: the wide gate of the first may leave the basin of the start
 constexpr double kDraftShare = 1.0 / 3.0;  // of the points; with a quarter fewer second sweeps are certain
 constexpr double kMostSpeed = 37.5;        // m/s, 135 km/h: so far other places are looked at
 constexpr int kLooks = 3;                  // the first result may be turned, too
@@ -65,8 +64,14 @@ bool SecondSweep::too_late_for_two_rounds() const {
 }
 
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the
-/// start implies, then with its own. All points are in use in the last round alone.
+/// start implies, then with its own. All points are in use in the last round alone. From a place that is known to a
+/// few centimetres that round is enough: the wider gate of the others, and of points with a stride, takes in what
+/// belongs to the place beside it.
 Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior& first_prior, int rounds) const {
+  AdaptiveIcpConfig icp = search_.icp();
+  if (rounds == 1) {
+    icp.coarse_stride = 1;
+  }
   Registration found;
   found.icp.state = start;
   found.T_init = start.T_odom_lidar;
@@ -84,7 +89,7 @@ Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior&
     found.first = FirstSweep{of_first_sweep(last ? parts_.map.first_cloud() : first_, twist), twist};
     const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
     found.icp = adaptive_icp(last ? parts_.prepared.source : source_, or_present(found.first->map), found.icp.state,
-                             prior, sigma_m, search_.icp(), round_end);
+                             prior, sigma_m, icp, round_end);
     found.sigma_th_m = sigma_m;
     iterations += found.icp.iterations;
     if (last && round + 1 < kRounds) {
@@ -108,59 +113,84 @@ SweepOverlap SecondSweep::overlap_with_first(const Registration& found, const Ei
           motion};
 }
 
-/// The places along a direction that lie elsewhere, as far as a sensor may have moved.
-std::vector<MotionState> SecondSweep::places_elsewhere(const Registration& found,
-                                                       const Eigen::Vector3d& direction) const {
-  const SE3& T_found = found.icp.state.T_odom_lidar;
-  const double moved_m = direction.dot(T_found.translation() - parts_.tracker.trusted().T_odom_lidar.translation());
+/// The sensor there instead, with the velocity that this implies.
+MotionState SecondSweep::moved(const MotionState& state, const Eigen::Vector3d& by_m) const {
+  SE3 T = state.T_odom_lidar;
+  T.translation() += by_m;
+  return {T, parts_.tracker.implied_twist(T)};
+}
+
+/// Other places along a direction, as far as a sensor may have moved.
+std::vector<MotionState> SecondSweep::places_along(const Registration& found, const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d& origin = parts_.tracker.trusted().T_odom_lidar.translation();
+  const double found_m = direction.dot(found.icp.state.T_odom_lidar.translation() - origin);
   const double reach_m = std::min(kMostSpeed * parts_.tracker.since_trusted_s(), SweepOverlap::kReachM);
-  const auto steps = static_cast<int>(std::lround(reach_m / SweepOverlap::kSigmaM));
+  const auto steps = [](double way_m) { return static_cast<int>(std::lround(way_m / SweepOverlap::kSigmaM)); };
   std::vector<MotionState> places;
-  for (int k = -steps; k <= steps; ++k) {
-    SE3 T = T_found;
-    T.translation() += (k * SweepOverlap::kSigmaM - moved_m) * direction;
-    if (elsewhere(T, T_found)) {
-      places.push_back({T, parts_.tracker.implied_twist(T)});
+  for (int k = steps(-reach_m - found_m); k <= steps(reach_m - found_m); ++k) {
+    if (k != 0) {
+      places.push_back(moved(found.icp.state, k * SweepOverlap::kSigmaM * direction));
     }
   }
   return places;
 }
 
 /// No motion is known at the second sweep, and along a road it has several optima: at rest, too, when most of what it
-/// sees runs along the road or drives with the sensor. Registers it again from where the two sweeps have most in common
-/// along the direction that the first result constrains least, until that is where it ends.
+/// sees runs along the road, moves with the sensor as its rings on the ground do, or drives with it. Registers it again
+/// from where the two sweeps have most in common along the direction that the first result constrains least, until that
+/// is where it ends.
 void SecondSweep::move_to_most_overlap(Registration& found) const {
   const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
   const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
+  const auto late = [&] { return parts_.deadline.passed_after(parts_.first_map_ms); };
   for (int look = 0; look < kLooks; ++look) {
     const SweepOverlap overlap = overlap_with_first(found, weakest);
-    const auto matches_at = [&](const MotionState& state, const Vector6d& twist_of_first) {
-      return overlap.matches(state, overlap.before({twist_of_first}));
+    const auto matches_of = [&](const Registration& registration) {
+      return overlap.matches(registration.icp.state, overlap.before({registration.first->twist}));
     };
-    const std::vector<double> of_found = matches_at(found.icp.state, found.first->twist);
+    const auto matches_at = [&](const MotionState& place) {
+      return overlap.matches(place, overlap.before({place.twist}));
+    };
+    const std::vector<double> of_found = matches_of(found);
     const double here = mean_match(of_found);
-    const std::vector<MotionState> places = places_elsewhere(found, weakest);
-    const auto overlap_at = [&](std::size_t i) { return mean_match(matches_at(places[i], places[i].twist)); };
-    const auto late = [&] { return parts_.deadline.passed_after(parts_.first_map_ms); };
-    const auto most = most_overlap(places.size(), overlap_at, late);
+    const std::vector<MotionState> places = places_along(found, weakest);
+    const std::vector<double> overlaps = overlaps_of(
+        places.size(), [&](std::size_t i) { return mean_match(matches_at(places[i])); }, late);
     found.cut = late();  // then some places were not looked at
-    if (found.cut || !most) {
-      return;
-    }
-    const MotionState& there = places[*most];
-    const std::vector<double> of_there = matches_at(there, there.twist);
-    // Where nothing shows the way, this is no evidence against a place.
-    found.ambiguous = here > 0.0 && !clearly_more(of_found, of_there);
-    if (mean_match(of_there) <= here) {
-      return;
-    }
-    found.cut = too_late_for_two_rounds();
     if (found.cut) {
       return;
     }
-    Registration other = in_rounds(there, parts_.tracker.prior(there), kNearbyRounds);
+    const auto most_of = [&](const auto& counts) {
+      std::optional<std::size_t> most;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        if (counts(places[i]) && (!most || overlaps[i] > overlaps[*most])) {
+          most = i;
+        }
+      }
+      return most;
+    };
+    const auto most = most_of([](const MotionState&) { return true; });
+    const auto rival =
+        most_of([&](const MotionState& place) { return elsewhere(place.T_odom_lidar, found.icp.state.T_odom_lidar); });
+    const bool more_there = most && overlaps[*most] > here;
+    // Where nothing shows the way, this is no evidence against a place.
+    found.ambiguous = here > 0.0 && (more_there || (rival && !clearly_more(of_found, matches_at(places[*rival]))));
+    if (!more_there) {
+      return;
+    }
+    MotionState there = places[*most];
+    double most_there = overlaps[*most];
+    for (const double half : {-0.5, 0.5}) {
+      const MotionState beside = moved(places[*most], half * SweepOverlap::kSigmaM * weakest);
+      const double overlap_beside = mean_match(matches_at(beside));
+      if (overlap_beside > most_there) {
+        there = beside;
+        most_there = overlap_beside;
+      }
+    }
+    Registration other = in_rounds(there, parts_.tracker.prior(there), 1);
     other.starts = ++found.starts;
-    if (mean_match(matches_at(other.icp.state, other.first->twist)) <= here) {
+    if (mean_match(matches_of(other)) <= here) {
       return;
     }
     other.ambiguous = true;  // until it was looked at

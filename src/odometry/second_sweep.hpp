@@ -21,7 +21,8 @@ class SecondSweep {
   bool too_late_for_two_rounds() const;
   Registration in_rounds(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
   SweepOverlap overlap_with_first(const Registration& found, const Eigen::Vector3d& direction) const;
-  std::vector<MotionState> places_elsewhere(const Registration& found, const Eigen::Vector3d& direction) const;
+  MotionState moved(const MotionState& state, const Eigen::Vector3d& by_m) const;
+  std::vector<MotionState> places_along(const Registration& found, const Eigen::Vector3d& direction) const;
   void move_to_most_overlap(Registration& found) const;
   std::optional<LocalMap> of_first_sweep(const TimedCloud& first, const Vector6d& twist) const;
   const LocalMap& or_present(const std::optional<LocalMap>& compensated) const;

@@ -97,8 +97,8 @@ double mean_match(std::span<const double> matches) {
   return matches.empty() ? 0.0 : sum / static_cast<double>(matches.size());
 }
 
-std::optional<std::size_t> most_overlap(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
-                                        const std::function<bool()>& late) {
+std::vector<double> overlaps_of(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
+                                const std::function<bool()>& late) {
   std::vector<double> overlaps(count);
   std::atomic<bool> over = false;
   for_each_index(count, [&](std::size_t i) {
@@ -107,8 +107,7 @@ std::optional<std::size_t> most_overlap(std::size_t count, const std::function<d
       overlaps[i] = overlap_at(i);
     }
   });
-  const auto most = std::max_element(overlaps.begin(), overlaps.end());
-  return count > 0 ? std::optional(static_cast<std::size_t>(most - overlaps.begin())) : std::nullopt;
+  return overlaps;
 }
 
 bool clearly_more(std::span<const double> most, std::span<const double> others) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,10 +55,9 @@ class SweepOverlap {
   TimedCloud places_;
 };
 
-/// Of `count` places, looked at in parallel until it is `late`, the one with the most overlap, the first of equal ones.
-/// None when there are none.
-std::optional<std::size_t> most_overlap(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
-                                        const std::function<bool()>& late);
+/// Overlaps at `count` places, looked at in parallel until it is `late`; 0 for those that were not.
+std::vector<double> overlaps_of(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
+                                const std::function<bool()>& late);
 
 /// Whether the matches `most` exceed those of the same places under another motion by three standard deviations of
 /// their difference, were the places independent.

@@ -30,8 +30,7 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   if (found.cut) {
     return;
   }
-  const auto most = std::max_element(overlaps.begin(), overlaps.end()) - overlaps.begin();
-  const MotionState& best = places[static_cast<std::size_t>(most)];
+  const MotionState& best = places[most_of(overlaps)];
   const std::vector<double> of_found = overlap.matches(found.icp.state, last);
   if (!clearly_more(overlap.matches(best, last), of_found)) {
     return;

@@ -151,43 +151,36 @@ void SecondSweep::move_to_most_overlap(Registration& found) const {
     const auto matches_at = [&](const MotionState& place) {
       return overlap.matches(place, overlap.before({place.twist}));
     };
+    const auto overlaps_at = [&](const std::vector<MotionState>& places) {
+      return overlaps_of(
+          places.size(), [&](std::size_t i) { return mean_match(matches_at(places[i])); }, late);
+    };
     const std::vector<double> of_found = matches_of(found);
     const double here = mean_match(of_found);
     const std::vector<MotionState> places = places_along(found, weakest);
-    const std::vector<double> overlaps = overlaps_of(
-        places.size(), [&](std::size_t i) { return mean_match(matches_at(places[i])); }, late);
+    const std::vector<double> overlaps = overlaps_at(places);
     found.cut = late();  // then some places were not looked at
-    if (found.cut) {
+    if (found.cut || places.empty()) {
       return;
     }
-    const auto most_of = [&](const auto& counts) {
-      std::optional<std::size_t> most;
-      for (std::size_t i = 0; i < places.size(); ++i) {
-        if (counts(places[i]) && (!most || overlaps[i] > overlaps[*most])) {
-          most = i;
-        }
+    std::optional<std::size_t> rival;  // in another basin
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (elsewhere(places[i].T_odom_lidar, found.icp.state.T_odom_lidar) &&
+          (!rival || overlaps[i] > overlaps[*rival])) {
+        rival = i;
       }
-      return most;
-    };
-    const auto most = most_of([](const MotionState&) { return true; });
-    const auto rival =
-        most_of([&](const MotionState& place) { return elsewhere(place.T_odom_lidar, found.icp.state.T_odom_lidar); });
-    const bool more_there = most && overlaps[*most] > here;
+    }
+    const std::size_t most = most_of(overlaps);
+    const bool more_there = overlaps[most] > here;
     // Where nothing shows the way, this is no evidence against a place.
     found.ambiguous = here > 0.0 && (more_there || (rival && !clearly_more(of_found, matches_at(places[*rival]))));
     if (!more_there) {
       return;
     }
-    MotionState there = places[*most];
-    double most_there = overlaps[*most];
-    for (const double half : {-0.5, 0.5}) {
-      const MotionState beside = moved(places[*most], half * SweepOverlap::kSigmaM * weakest);
-      const double overlap_beside = mean_match(matches_at(beside));
-      if (overlap_beside > most_there) {
-        there = beside;
-        most_there = overlap_beside;
-      }
-    }
+    const Eigen::Vector3d half_step = 0.5 * SweepOverlap::kSigmaM * weakest;
+    const std::vector<MotionState> around{places[most], moved(places[most], -half_step),
+                                          moved(places[most], half_step)};
+    const MotionState& there = around[most_of(overlaps_at(around))];
     Registration other = in_rounds(there, parts_.tracker.prior(there), 1);
     other.starts = ++found.starts;
     if (mean_match(matches_of(other)) <= here) {

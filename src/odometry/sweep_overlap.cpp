@@ -110,6 +110,10 @@ std::vector<double> overlaps_of(std::size_t count, const std::function<double(st
   return overlaps;
 }
 
+std::size_t most_of(const std::vector<double>& overlaps) {
+  return static_cast<std::size_t>(std::max_element(overlaps.begin(), overlaps.end()) - overlaps.begin());
+}
+
 bool clearly_more(std::span<const double> most, std::span<const double> others) {
   double sum = 0.0;
   double squares = 0.0;

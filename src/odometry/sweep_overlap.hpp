@@ -59,6 +59,9 @@ class SweepOverlap {
 std::vector<double> overlaps_of(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
                                 const std::function<bool()>& late);
 
+/// Index of the most overlap, of the first of equal ones. There must be one.
+std::size_t most_of(const std::vector<double>& overlaps);
+
 /// Whether the matches `most` exceed those of the same places under another motion by three standard deviations of
 /// their difference, were the places independent.
 bool clearly_more(std::span<const double> most, std::span<const double> others);

@@ -101,6 +101,11 @@ TEST(SweepOverlaps, WhatIsClearlyMoreIsSoByThreeStandardDeviations) {
   EXPECT_FALSE(clearly_more(none, none));
 }
 
+TEST(SweepOverlaps, OfEqualOnesTheFirstIsTheMost) {
+  EXPECT_EQ(most_of({0.1, 0.4, 0.2, 0.4}), 1U);
+  EXPECT_EQ(most_of({0.0}), 0U);
+}
+
 /// Half of the points are taken 0.05 s before the pose, half after it.
 TimedCloud taken_at(double speed_m_s, TimedCloud cloud) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -33,7 +33,8 @@ OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const Healt
   if (evidence.was_lost) {
     return OdometryStatus::kRecovered;
   }
-  if (is_degenerate(icp, config)) {
+  // What was put together while a direction was not seen shows how it was put together, too.
+  if (icp.degeneracy.relative_eigenvalues[0] < (1.0 + evidence.unseen_share) * config.degenerate_ratio) {
     return OdometryStatus::kDegenerate;
   }
   return OdometryStatus::kOk;

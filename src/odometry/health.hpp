@@ -20,6 +20,7 @@ struct Evidence {
   bool ambiguous = false;       ///< it may as well lie elsewhere
   bool displaced = false;       ///< it fits worse than sweeps that belong there do, or places beside it as well
   bool second_sweep = false;    ///< of the map: there is no usual score to judge it by
+  double unseen_share = 0;      ///< of the sweeps before: those that were degenerate
 };
 
 /// Whether the sweep says too little in one direction.

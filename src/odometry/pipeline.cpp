@@ -231,7 +231,7 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   }
   calibration_.apply_to(preprocessor_);
 
-  judge_.accept(prepared, registration);
+  judge_.accept(prepared, registration, degenerate);
   initial_pose_.learn(result.stats.map_score, established() ? std::optional(registration.quality) : std::nullopt);
   initial_pose_.keep_target(prepared.source, tracker_.state().twist);
   const StageTimes& times = result.stats.times;

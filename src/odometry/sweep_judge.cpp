@@ -16,8 +16,9 @@ constexpr double kFitsWorse = 0.9;            // of the usual quality: right swe
 constexpr double kFitsMuchWorse = 1.0 / 3.0;  // of the usual quality: most such sweeps are wrong, whatever they see
 constexpr double kFoundAgain = 0.7;           // of the usual score: below it most places that a search finds are wrong
 constexpr double kSeesLess = 0.25;  // of the usual least eigenvalue: right sweeps that fit worse hardly ever do
-constexpr double kClose = 2.0;     // times the usual residuals, or a share of the usual quality (experiment: long gaps)
-constexpr int kTriesAfterGap = 3;  // each takes a search; few sweeps that the first ones did not place fit later
+constexpr double kClose = 2.0;  // times the usual residuals, or a share of the usual quality (experiment: long gaps)
+constexpr double kUnseenGain = 0.05;  // of one sweep in the share of degenerate ones
+constexpr int kTriesAfterGap = 3;     // each takes a search; few sweeps that the first ones did not place fit later
 /// Out of time while the points still moved by more than that: each update leaves about as much as it was. (With 0.03 m
 /// hardly a second sweep is found in 25 ms, with 0.3 m wrong ones are.)
 bool cut_off(const IcpResult& icp, double range_m) {
@@ -49,6 +50,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.map_sweeps = before.map_sweeps;
   evidence.usual_score = map_may_end ? 0.0 : before.usual_score;
   evidence.was_lost = before.was_lost;
+  evidence.unseen_share = unseen_share_;
   evidence.shrunk = prepared.median_range_m < kShrunk * median_range_m_;
   evidence.cut_off = cut_off(registration.icp, prepared.median_range_m);
   evidence.possible_motion = motion != MotionVerdict::kImpossible;
@@ -69,10 +71,11 @@ bool SweepJudge::give_up(bool established, double since_last) {
   return ++lost_in_a_row_ >= (established ? most : 1);
 }
 
-void SweepJudge::accept(const PreparedSweep& prepared, const Registration& registration) {
+void SweepJudge::accept(const PreparedSweep& prepared, const Registration& registration, bool degenerate) {
   median_range_m_ = prepared.median_range_m;
   follow(usual_eigenvalue_, registration.icp.degeneracy.relative_eigenvalues[0]);
   follow(usual_residual_m_, registration.icp.residual_rms_m);
+  unseen_share_ += kUnseenGain * ((degenerate ? 1.0 : 0.0) - unseen_share_);
   lost_in_a_row_ = 0;
   begun_in_a_row_ = 0;
 }

@@ -34,12 +34,13 @@ class SweepJudge {
                   const JudgedAgainst& before) const;
 
   /// The sweep goes into the map.
-  void accept(const PreparedSweep& prepared, const Registration& registration);
+  void accept(const PreparedSweep& prepared, const Registration& registration, bool degenerate);
   /// The sweep begins a map.
   void begin(const PreparedSweep& prepared) {
     median_range_m_ = prepared.median_range_m;
     usual_eigenvalue_ = 0.0;
     usual_residual_m_ = 0.0;
+    unseen_share_ = 0.0;
     lost_in_a_row_ = 0;
     ++begun_in_a_row_;
   }
@@ -57,6 +58,7 @@ class SweepJudge {
   double median_range_m_ = 0;    // of the last sweep in the map
   double usual_residual_m_ = 0;  // of the sweeps in the map; 0: unknown
   double usual_eigenvalue_ = 0;  // least relative one of the sweeps in the map; 0: unknown
+  double unseen_share_ = 0;      // of the sweeps in the map: degenerate ones
   int lost_in_a_row_ = 0;
   int begun_in_a_row_ = 0;  // maps, without a second sweep
 };

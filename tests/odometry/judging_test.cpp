@@ -171,14 +171,14 @@ Registration fitting() {
 TEST(SweepJudge, APlaceOfLessThanAThirdOfTheLastIsACover) {
   SweepJudge judge(kHealth);
   judge.begin(sweep_of(60.0));
-  judge.accept(sweep_of(30.0), fitting());
+  judge.accept(sweep_of(30.0), fitting(), false);
   const auto at = [&](double range_m) {
     return judge.judge(sweep_of(range_m), fitting(), MotionVerdict::kPossible, {10, 0.8, 0.0, false});
   };
   EXPECT_EQ(at(10.1).status, OdometryStatus::kOk);
   EXPECT_EQ(at(9.9).status, OdometryStatus::kLost);
   EXPECT_FALSE(at(9.9).fits_map);
-  judge.accept(sweep_of(15.0), fitting());
+  judge.accept(sweep_of(15.0), fitting(), false);
   EXPECT_EQ(at(9.9).status, OdometryStatus::kOk);
 }
 
@@ -189,7 +189,7 @@ TEST(SweepJudge, ASweepThatSuddenlySeesADirectionMuchLessDoesNotBelongThere) {
   Registration usual = fitting();
   usual.quality = 20.0;
   usual.icp.degeneracy.relative_eigenvalues[0] = 0.05;
-  for (int i = 0; i < 10; ++i) judge.accept(sweep_of(10.0), usual);
+  for (int i = 0; i < 10; ++i) judge.accept(sweep_of(10.0), usual, false);
   const auto status = [&](double quality, double eigenvalue, bool was_lost = false) {
     Registration registration = usual;
     registration.quality = quality;
@@ -205,10 +205,33 @@ TEST(SweepJudge, ASweepThatSuddenlySeesADirectionMuchLessDoesNotBelongThere) {
   EXPECT_EQ(status(17.0, 0.012), OdometryStatus::kOk) << "of a new map nothing is usual";
   Registration less = usual;
   less.icp.degeneracy.relative_eigenvalues[0] = 0.02;
-  judge.accept(sweep_of(10.0), usual);
-  judge.accept(sweep_of(10.0), less);
+  judge.accept(sweep_of(10.0), usual, false);
+  judge.accept(sweep_of(10.0), less, false);
   EXPECT_EQ(status(17.0, 0.0109), OdometryStatus::kLost) << "0.044 is usual: a fifth of the change counts";
   EXPECT_EQ(status(17.0, 0.0111), OdometryStatus::kOk);
+}
+
+// An open field: the drift along a direction that was not seen is in the map, and sweeps fit that, too.
+TEST(SweepJudge, WhereADirectionWasNotSeenForLongItMustBeSeenMoreClearly) {
+  SweepJudge judge(kHealth);
+  judge.begin(sweep_of(10.0));
+  const auto status = [&](double ratio) {
+    Registration registration = fitting();
+    registration.icp.degeneracy.relative_eigenvalues[0] = ratio * kHealth.degenerate_ratio;
+    return judge.judge(sweep_of(10.0), registration, MotionVerdict::kPossible, {10, 0.8, 0.0, false}).status;
+  };
+  EXPECT_EQ(status(1.01), OdometryStatus::kOk);
+  judge.accept(sweep_of(10.0), fitting(), true);
+  EXPECT_EQ(status(1.04), OdometryStatus::kDegenerate) << "a sweep counts for a twentieth";
+  EXPECT_EQ(status(1.06), OdometryStatus::kOk);
+  for (int i = 0; i < 100; ++i) judge.accept(sweep_of(10.0), fitting(), true);
+  EXPECT_EQ(status(1.98), OdometryStatus::kDegenerate);
+  EXPECT_EQ(status(2.01), OdometryStatus::kOk);
+  for (int i = 0; i < 14; ++i) judge.accept(sweep_of(10.0), fitting(), false);
+  EXPECT_EQ(status(1.5), OdometryStatus::kOk) << "half of it is forgotten";
+  judge.accept(sweep_of(10.0), fitting(), true);
+  judge.begin(sweep_of(10.0));
+  EXPECT_EQ(status(1.01), OdometryStatus::kOk) << "a new map";
 }
 
 // A handheld sweep after some in reverse order, 4.5° off: it shows every direction, and lies beside the map.
@@ -273,7 +296,7 @@ TEST(SweepJudge, AnEstablishedMapIsGivenUpAfterTenLossesInARow) {
     for (int lost = 1; lost < kHealth.restart_after; ++lost) {
       EXPECT_FALSE(judge.give_up(true, lost)) << lost;
     }
-    judge.accept(sweep_of(10.0), fitting());
+    judge.accept(sweep_of(10.0), fitting(), false);
   }
   for (int lost = 1; lost < kHealth.restart_after; ++lost) {
     judge.give_up(true, lost);
@@ -294,7 +317,7 @@ TEST(SweepJudge, AfterTenBeginningsInARowASecondSweepMayLeaveADirectionOpen) {
   }
   judge.begin(sweep_of(10.0));
   EXPECT_EQ(second(), OdometryStatus::kDegenerate);
-  judge.accept(sweep_of(10.0), fitting());
+  judge.accept(sweep_of(10.0), fitting(), false);
   judge.begin(sweep_of(10.0));
   EXPECT_EQ(second(), OdometryStatus::kLost) << "no longer in a row";
 }

@@ -58,7 +58,7 @@ class AfterAGap : public ::testing::Test {
     found_.score = 0.8;
     found_.quality = 30.0;
     judge_.begin(place_);
-    judge_.accept(place_, found_);
+    judge_.accept(place_, found_, false);
   }
 
   OdometryStatus status(bool after_gap = true, bool was_lost = false) const {
@@ -125,7 +125,7 @@ TEST_F(AfterAGap, AMapIsGivenUpAfterThreeTries) {
   EXPECT_FALSE(judge_.give_up(true, 16.0));
   EXPECT_FALSE(judge_.give_up(true, 17.0));
   EXPECT_TRUE(judge_.give_up(true, 18.0));
-  judge_.accept(place_, found_);
+  judge_.accept(place_, found_, false);
   EXPECT_FALSE(judge_.give_up(true, 6.0));
   EXPECT_FALSE(judge_.give_up(true, 7.0));
   EXPECT_FALSE(judge_.give_up(true, 8.0)) << "a gap of half a second";

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "console/text.hpp"
+#include "results/run_metrics.hpp"
 
 namespace rilo::cli {
 
@@ -52,9 +53,11 @@ std::string compensation_text(const nlohmann::json& j) {
   if (trial.is_null() || count(trial["sweeps"]) == 0) return "";
   const bool raw = trial["raw"].get<bool>();
   const bool compensated = trial["compensated"].get<bool>();
-  return fmt::format("motion        {} of {} fit better when their points are compensated with {}: {}\n",
+  const std::string times = word(trial["times"]);
+  return fmt::format("motion        {} of {} fit better when their points are compensated with {}{}: {}\n",
                      count(trial["better"]), counted(count(trial["sweeps"]), "sweep"),
-                     timed(j) ? "their times" : "the times of their order",
+                     timed(j) ? "their times" : "the times of their " + times,
+                     cones_text(count(trial["on_cones"]), count(trial["off_cones"])),
                      raw           ? "raw points"
                      : compensated ? "they are compensated already"
                                    : "not certain");

@@ -153,7 +153,7 @@ void show_the_rest(const RunFlags& flags, const RunRecord& run, LiveView& view) 
   if (!flags.quiet) std::cerr << "rilo: done; the viewer stays at " << view.viewer().url() << " until Ctrl-C\n";
   try {
     RunFlags same = flags;
-    if (run.trial.raw()) same.source.options.point_times = PointTimes::kOrder;  // as the run has read them
+    if (run.trial.raw()) same.source.options.point_times = run.trial.times;  // as the run has read them
     const auto source = source_of(same)();
     source->skip(flags.start);
     view.show_missing(*source, run);

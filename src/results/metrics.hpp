@@ -60,8 +60,11 @@ struct BudgetMetrics {
 
 /// As CompensationTrial: raw or compensated; neither: not certain.
 struct TrialMetrics {
+  std::string times;  ///< "auto": their own
   std::size_t sweeps = 0;
   std::size_t better = 0;
+  std::size_t on_cones = 0;
+  std::size_t off_cones = 0;
   bool raw = false;
   bool compensated = false;
   friend bool operator==(const TrialMetrics&, const TrialMetrics&) = default;

@@ -80,8 +80,11 @@ void list(auto& f, Is<BudgetMetrics> auto& m) {
 }
 
 void list(auto& f, Is<TrialMetrics> auto& m) {
+  f.key("times", m.times);
   f.key("sweeps", m.sweeps);
   f.key("better", m.better);
+  f.key("on_cones", m.on_cones);
+  f.key("off_cones", m.off_cones);
   f.key("raw", m.raw);
   f.key("compensated", m.compensated);
 }

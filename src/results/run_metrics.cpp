@@ -124,15 +124,28 @@ ErrorMetrics summary(const ErrorSummary& s) {
 
 }  // namespace
 
-bool was_tried(const SessionResult& run) { return !run.trial.timed && run.trial.sweeps > 0; }
+std::string cones_text(std::size_t on_cones, std::size_t off_cones) {
+  if (on_cones + off_cones == 0) return "";
+  return on_cones >= off_cones ? fmt::format(", {} lie on the cones of the beams", on_cones)
+                               : fmt::format(", {} do not lie on the cones of the beams", off_cones);
+}
+
+bool was_tried(const SessionResult& run) { return run.trial.times != PointTimes::kAuto && run.trial.sweeps > 0; }
 
 TrialMetrics trial_metrics(const CompensationTrial& trial) {
-  return {trial.sweeps, trial.better, trial.raw(), trial.compensated()};
+  return {std::string(to_string(trial.times)),
+          trial.sweeps,
+          trial.better,
+          trial.on_cones,
+          trial.off_cones,
+          trial.raw(),
+          trial.compensated()};
 }
 
 std::string trial_outcome(const CompensationTrial& trial) {
-  return fmt::format("{} of {} fit better with the times of the points' order: {}", trial.better,
-                     counted(trial.sweeps, "sweep"),
+  return fmt::format("{} of {} fit better with the times of the points' {}{}: {}", trial.better,
+                     counted(trial.sweeps, "sweep"), to_string(trial.times),
+                     cones_text(trial.on_cones, trial.off_cones),
                      trial.raw()           ? "taken as raw"
                      : trial.compensated() ? "taken as compensated"
                                            : "not certain, taken as they are");

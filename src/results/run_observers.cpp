@@ -60,7 +60,7 @@ void ProgressLine::on_trial(const CompensationTrial& trial) {
   if (!trial.raw() && !trial.compensated()) return;
   times_judged_ = true;
   progress_.say(fmt::format("rilo: note: no per-point times; {} (--point-times {}: the other way)",
-                            trial_outcome(trial), trial.raw() ? "none" : "order"));
+                            trial_outcome(trial), to_string(trial.raw() ? PointTimes::kNone : trial.times)));
 }
 
 void ProgressLine::on_warning(const std::string& warning) { progress_.say("rilo: warning: " + warning); }

@@ -1,12 +1,18 @@
 #include "session/compensation_trial.hpp"
 
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "cloud/measured_point.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/odometry/odometry.hpp"
+#include "session/beam_cones.hpp"
 
 namespace rilo {
 
@@ -15,7 +21,8 @@ namespace {
 constexpr std::size_t kEnough = 40;  // compared sweeps
 constexpr std::size_t kLeast = 10;
 constexpr double kRawShare = 0.6;          // better: at least 0.75 of raw sweeps, ...
-constexpr double kCompensatedShare = 0.4;  // ... at most 0.38 of compensated ones
+constexpr double kCompensatedShare = 0.4;  // ... at most 0.38 of compensated ones, but all of KITTI's
+constexpr double kConesShare = 0.5;        // of the compared sweeps: nearly all, or none
 constexpr double kMostLost = 0.1;          // of the compared sweeps
 constexpr std::size_t kMostSweeps = 100;   // one that stands for longer is not compared
 constexpr std::size_t kBeginning = 3;      // sweeps of a map that is still built with guesses
@@ -36,15 +43,40 @@ bool moved(const SweepResult& result, double period_s) {
 struct Fit {
   bool compared = false;
   double residual_rms_m = 0;
+  ConeVerdict cones = ConeVerdict::kNothing;
 };
 
-/// False when it has none and its points do not lie in order.
-bool give_times(Sweep& sweep, double period_s) {
-  if (!sweep.times_s.empty()) return true;
-  auto times = order_times(sweep.points, period_s);
-  if (!times) return false;
-  sweep.times_s = std::move(*times);
-  return true;
+/// Whether points lie in nearly all directions around the z axis.
+bool all_round(const std::vector<Eigen::Vector3f>& points) {
+  constexpr std::size_t kSectors = 36;
+  constexpr std::size_t kNearlyAll = 33;
+  std::bitset<kSectors> seen;
+  for (const Eigen::Vector3f& p : points) {
+    if (!detail::is_measured(p)) continue;
+    const auto turn = static_cast<double>(std::atan2(p.y(), p.x())) / (2.0 * std::numbers::pi) + 0.5;
+    seen.set(std::min(static_cast<std::size_t>(turn * kSectors), kSectors - 1));
+  }
+  return seen.count() >= kNearlyAll;
+}
+
+/// Which times a sweep can have.
+PointTimes times_for(const Sweep& sweep) {
+  if (!sweep.times_s.empty()) return PointTimes::kAuto;
+  if (order_times(sweep.points, 1)) return PointTimes::kOrder;
+  return all_round(sweep.points) ? PointTimes::kAzimuth : PointTimes::kNone;
+}
+
+/// False when it cannot have those times.
+bool give_times(Sweep& sweep, PointTimes times, double period_s) {
+  if (times == PointTimes::kAuto) return !sweep.times_s.empty();
+  if (times == PointTimes::kOrder) {
+    auto in_order = order_times(sweep.points, period_s);
+    if (!in_order) return false;
+    sweep.times_s = std::move(*in_order);
+    return true;
+  }
+  sweep.times_s = azimuth_times(sweep.points, period_s, SpinDirection::kClockwise);
+  return times == PointTimes::kAzimuth;
 }
 
 /// Of at most `most` sweeps of `source`; with times, until enough moved.
@@ -58,14 +90,16 @@ std::vector<Fit> fits_of(ScanSource& source, const OdometryConfig& config, bool 
       std::optional<Sweep> sweep = source.next();
       if (!sweep) break;
       const double period_s = source.info().period_s;
-      trial.timed = !sweep->times_s.empty();
-      if (with_times && !give_times(*sweep, period_s)) break;
+      if (with_times && fits.empty()) trial.times = times_for(*sweep);
+      if (with_times && !give_times(*sweep, trial.times, period_s)) break;
       if (!with_times) sweep->times_s.clear();
       const SweepResult result = odometry.register_sweep(*sweep);
       trial.lost += with_times && !fits.empty() && !tracked(result) ? 1 : 0;
       const bool usable = fits.size() >= kBeginning && registered(result);
       fits.push_back({usable && (!with_times || moved(result, period_s)), result.stats.residual_rms_m});
-      compared += with_times && fits.back().compared ? 1 : 0;
+      if (!with_times || !fits.back().compared) continue;
+      fits.back().cones = on_beam_cones(*sweep, result.twist);
+      ++compared;
     }
   } catch (const IoError&) {
     // The run will meet and report it.
@@ -80,11 +114,18 @@ bool CompensationTrial::certain() const {
 }
 
 bool CompensationTrial::raw() const {
-  return certain() && static_cast<double>(better) >= kRawShare * static_cast<double>(sweeps);
+  const auto all = static_cast<double>(sweeps);
+  const bool by_cones = static_cast<double>(on_cones) >= kConesShare * all;
+  const bool not_by_cones = static_cast<double>(off_cones) >= kConesShare * all;
+  return certain() && static_cast<double>(better) >= kRawShare * all && !not_by_cones &&
+         (times != PointTimes::kAzimuth || by_cones);
 }
 
 bool CompensationTrial::compensated() const {
-  return certain() && static_cast<double>(better) <= kCompensatedShare * static_cast<double>(sweeps);
+  const auto all = static_cast<double>(sweeps);
+  const bool by_cones = static_cast<double>(off_cones) >= kConesShare * all;
+  const bool not_by_cones = static_cast<double>(on_cones) >= kConesShare * all;
+  return certain() && (by_cones || (static_cast<double>(better) <= kCompensatedShare * all && !not_by_cones));
 }
 
 CompensationTrial try_compensation(const OpenSource& open, std::size_t start, OdometryConfig config,
@@ -104,6 +145,8 @@ CompensationTrial try_compensation(const OpenSource& open, std::size_t start, Od
     if (!compensated[i].compared || !as_read[i].compared) continue;
     ++trial.sweeps;
     trial.better += compensated[i].residual_rms_m < as_read[i].residual_rms_m ? 1 : 0;
+    trial.on_cones += compensated[i].cones == ConeVerdict::kRaw ? 1 : 0;
+    trial.off_cones += compensated[i].cones == ConeVerdict::kCompensated ? 1 : 0;
   }
   return trial;
 }

@@ -44,7 +44,7 @@ class Session::Impl {
   SessionResult run() {
     const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     result_.threads = options_.config.threads > 0 ? options_.config.threads : processors;
-    guarded([this] { try_order(); });
+    guarded([this] { try_times(); });
     const std::int64_t begin_ns = steady_ns();
     if (!result_.failure) guarded([this] { run_sweeps(); });
     result_.wall_s = static_cast<double>(steady_ns() - begin_ns) * 1e-9;
@@ -116,12 +116,14 @@ class Session::Impl {
   }
 
   // Raw points without times are common, and nothing but the fit tells them from compensated ones.
-  void try_order() {
+  void try_times() {
     if (options_.point_times != PointTimes::kAuto || options_.one_pass || source_->info().has_point_times) return;
     result_.trial = try_compensation(open_, options_.start, options_.config, options_.interrupted);
-    if (result_.trial.timed) return;
+    if (result_.trial.times == PointTimes::kAuto) return;
     if (result_.trial.raw()) {
-      open_ = [open = std::move(open_)] { return detail::with_order_times(open()); };
+      const bool in_order = result_.trial.times == PointTimes::kOrder;
+      const auto timed = in_order ? detail::with_order_times : detail::with_azimuth_times;
+      open_ = [open = std::move(open_), timed] { return timed(open()); };
       source_ = open_();
     }
     for (SessionObserver* observer : observers_) observer->on_trial(result_.trial);

@@ -104,11 +104,12 @@ TEST(RunFlags, RawPointsWithoutTimesAreFoundOut) {
   EXPECT_TRUE(metrics["point_times"].get<std::string>().starts_with("order of the points"));
   EXPECT_EQ(metrics["compensation"]["raw"], true);
   EXPECT_EQ(metrics["compensation"]["compensated"], false);
+  EXPECT_EQ(metrics["compensation"]["times"], "order");
   EXPECT_GE(metrics["compensation"]["sweeps"], 10);
   EXPECT_LE(metrics["compensation"]["better"], metrics["compensation"]["sweeps"]);
   EXPECT_FALSE(json_file(folder / "none" / "metrics.json").contains("compensation"));
   rilo_succeeds({"run", drive, "--out", folder / "report", "--quiet"});
-  EXPECT_THAT(slurp(folder / "report" / "report.html"), testing::HasSubstr("order: taken as raw"));
+  EXPECT_THAT(slurp(folder / "report" / "report.html"), testing::HasSubstr("of the beams: taken as raw"));
 }
 
 TEST(RunFlags, AMapWithoutAFolderGoesIntoOutAndAStaleOneGoesAway) {

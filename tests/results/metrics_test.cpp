@@ -76,10 +76,9 @@ TEST(Metrics, CompensationNeedsTimesAndIsTriedWithoutThem) {
   RunRecord run = short_run();
   EXPECT_FALSE(run_metrics(run).motion_compensation);
   EXPECT_FALSE(run_metrics(run).compensation);
-  run.trial.sweeps = 10;
-  run.trial.better = 6;
-  EXPECT_EQ(run_metrics(run).compensation, (TrialMetrics{10, 6, true, false}));
-  run.trial.timed = true;
+  run.trial = {PointTimes::kOrder, 10, 6, 3, 1, 0};
+  EXPECT_EQ(run_metrics(run).compensation, (TrialMetrics{"order", 10, 6, 3, 1, true, false}));
+  run.trial.times = PointTimes::kAuto;
   EXPECT_FALSE(run_metrics(run).compensation);
   run.source.has_point_times = true;
   EXPECT_TRUE(run_metrics(run).motion_compensation);

@@ -2,9 +2,13 @@
 #include "session/compensation_trial.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "geometry/degrees.hpp"
 #include "io/sweeps_source.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/session/session.hpp"
@@ -77,7 +81,7 @@ double error_at_end_m(const SessionResult& run, const Drive& drive) {
 
 TEST(CompensationTrial, IsCertainFromTenSweepsOnOfWhichATenthMayBeLost) {
   const auto trial = [](std::size_t sweeps, std::size_t better, std::size_t lost) {
-    return CompensationTrial{false, sweeps, better, lost};
+    return CompensationTrial{PointTimes::kOrder, sweeps, better, 0, 0, lost};
   };
   EXPECT_FALSE(trial(9, 9, 0).certain());
   EXPECT_TRUE(trial(10, 5, 1).certain());
@@ -88,6 +92,24 @@ TEST(CompensationTrial, IsCertainFromTenSweepsOnOfWhichATenthMayBeLost) {
   EXPECT_TRUE(trial(10, 4, 0).compensated());
   EXPECT_FALSE(trial(10, 5, 0).compensated());
   EXPECT_FALSE(trial(10, 0, 2).compensated());
+}
+
+// KITTI's compensated sweeps fit better with the times, too.
+TEST(CompensationTrial, TheConesOutweighTheFit) {
+  CompensationTrial trial{PointTimes::kAzimuth, 13, 13, 0, 13, 0};
+  EXPECT_FALSE(trial.raw());
+  EXPECT_TRUE(trial.compensated());
+  trial = {PointTimes::kAzimuth, 13, 0, 13, 0, 0};
+  EXPECT_FALSE(trial.raw()) << "raw, but not with these times";
+  EXPECT_FALSE(trial.compensated());
+  trial = {PointTimes::kAzimuth, 13, 13, 6, 0, 0};
+  EXPECT_FALSE(trial.raw()) << "nothing but the fit speaks for a sensor whose sweeps begin at the back";
+  trial.on_cones = 7;
+  EXPECT_TRUE(trial.raw());
+  trial = {PointTimes::kOrder, 13, 13, 0, 6, 0};
+  EXPECT_TRUE(trial.raw()) << "the order is evidence, too";
+  trial.lost = 2;
+  EXPECT_FALSE(trial.raw() || trial.compensated());
 }
 
 TEST(CompensationTrial, RawPointsFitBetter) {
@@ -110,7 +132,7 @@ TEST(CompensationTrial, TimedSweepsAreTriedWithTheirTimes) {
     std::vector<Sweep> timed = is_raw ? raw().sweeps : compensated().sweeps;
     for (Sweep& sweep : timed) sweep.times_s = *order_times(sweep.points, kPeriodS);
     const CompensationTrial trial = trial_of(timed);
-    EXPECT_TRUE(trial.timed);
+    EXPECT_EQ(trial.times, PointTimes::kAuto);
     EXPECT_EQ(trial.raw(), is_raw);
     EXPECT_EQ(trial.compensated(), !is_raw);
     // A run takes the times that it is given.
@@ -138,10 +160,48 @@ TEST(CompensationTrial, WhatStandsTellsNothing) {
   EXPECT_FALSE(trial.compensated());
 }
 
+/// Beam by beam, each from the front on counter-clockwise, as KITTI's files.
+std::vector<Sweep> by_beams(std::vector<Sweep> sweeps) {
+  const auto place = [](const Eigen::Vector3f& p) {
+    const double turn = std::atan2(static_cast<double>(p.y()), static_cast<double>(p.x()));
+    const double elevation_deg = kDegPerRad * std::atan2(static_cast<double>(p.z()), p.head<2>().cast<double>().norm());
+    return std::pair(std::lround(-elevation_deg), turn < 0 ? turn + 2 * std::numbers::pi : turn);
+  };
+  for (Sweep& sweep : sweeps) {
+    std::sort(sweep.points.begin(), sweep.points.end(),
+              [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b) { return place(a) < place(b); });
+    sweep.intensities.clear();
+    sweep.rings.clear();
+  }
+  return sweeps;
+}
+
+TEST(CompensationTrial, PointsInAnotherOrderAreTriedWithTheirAzimuth) {
+  const std::vector<Sweep> raw_beams = by_beams(raw().sweeps);
+  const CompensationTrial found = trial_of(raw_beams);
+  EXPECT_EQ(found.times, PointTimes::kAzimuth);
+  EXPECT_GE(found.sweeps, kLeastCompared);
+  EXPECT_GE(10 * found.on_cones, 9 * found.sweeps);
+  EXPECT_TRUE(found.raw());
+  const SessionResult run = run_of(raw_beams, PointTimes::kAuto);
+  EXPECT_EQ(run.source.point_times, "azimuth, clockwise, period 0.100000 s");
+  EXPECT_LT(error_at_end_m(run, raw()), 0.3 * error_at_end_m(run_of(raw_beams, PointTimes::kNone), raw()));
+
+  const std::vector<Sweep> compensated_beams = by_beams(compensated().sweeps);
+  const CompensationTrial not_raw = trial_of(compensated_beams);
+  EXPECT_EQ(not_raw.times, PointTimes::kAzimuth);
+  EXPECT_GE(10 * not_raw.off_cones, 9 * not_raw.sweeps);
+  EXPECT_TRUE(not_raw.compensated());
+  EXPECT_EQ(poses_of(run_of(compensated_beams, PointTimes::kAuto)),
+            poses_of(run_of(compensated_beams, PointTimes::kNone)));
+}
+
 TEST(CompensationTrial, NotOfOtherSweeps) {
-  std::vector<Sweep> other_order = raw().sweeps;
-  for (Sweep& sweep : other_order) std::reverse(sweep.points.begin() + 5000, sweep.points.end());
-  EXPECT_EQ(trial_of(other_order).sweeps, 0U);
+  std::vector<Sweep> half = by_beams(raw().sweeps);
+  for (Sweep& sweep : half) std::erase_if(sweep.points, [](const Eigen::Vector3f& p) { return p.x() < 0; });
+  const CompensationTrial trial = trial_of(half);
+  EXPECT_EQ(trial.times, PointTimes::kNone);
+  EXPECT_EQ(trial.sweeps, 0U);
 
   OdometryConfig without;
   without.preprocess.deskew = false;
@@ -160,7 +220,7 @@ TEST(CompensationTrial, NotCertainWhereSweepsAreLost) {
   EXPECT_GT(trial.lost, 3U);
   EXPECT_FALSE(trial.certain());
   EXPECT_EQ(trial_of(raw().sweeps).lost, 0U);
-  CompensationTrial few_lost{false, 30, 30, 3};
+  CompensationTrial few_lost{PointTimes::kOrder, 30, 30, 0, 0, 3};
   EXPECT_TRUE(few_lost.raw());
   few_lost.lost = 4;
   EXPECT_FALSE(few_lost.raw());

@@ -9,6 +9,7 @@
 
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/cloud/thinned_map.hpp"
+#include "rilo/io/source_options.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/odometry/sweep_result.hpp"
 
@@ -29,19 +30,22 @@ struct Restart {
   double beam_elevation_rms_deg = 0;  ///< of the corrections of single beams, likewise
 };
 
-/// The same sweeps, registered without times and with them, their own or those of order_times(): with them, raw points
-/// are nearer to the planes of the map, compensated ones are not.
+/// The same sweeps, registered without times and with them. With them raw points are nearer to the planes of the map,
+/// compensated ones are not; and raw points lie on the cones of the sensor's beams, compensated ones do not.
 struct CompensationTrial {
-  bool timed = false;      ///< they have times of their own
-  std::size_t sweeps = 0;  ///< compared: those during which the sensor moved by more than the noise of good poses
-  std::size_t better = 0;  ///< of these, with the times
-  std::size_t lost = 0;    ///< with the times, or where a map had to begin again: what fits a wrong path says nothing
+  /// Which times: their own (kAuto), or those of order_times() or of azimuth_times(), clockwise; kNone: not tried.
+  PointTimes times = PointTimes::kNone;
+  std::size_t sweeps = 0;     ///< compared: those during which the sensor moved by more than the noise of good poses
+  std::size_t better = 0;     ///< of these, with the times
+  std::size_t on_cones = 0;   ///< of these, raw by the cones
+  std::size_t off_cones = 0;  ///< of these, compensated by the cones
+  std::size_t lost = 0;  ///< with the times, or where a map had to begin again: what fits a wrong path says nothing
 
   /// At least ten sweeps were compared, and hardly any was lost.
   bool certain() const;
-  /// Certain, and 0.6 of the sweeps are better.
+  /// Certain, 0.6 of the sweeps are better, and the cones do not say otherwise; with azimuth_times() they say so, too.
   bool raw() const;
-  /// Certain, and at most 0.4 of the sweeps are better.
+  /// Certain, and so say the cones, or at most 0.4 of the sweeps are better and the cones do not say otherwise.
   bool compensated() const;
 };
 

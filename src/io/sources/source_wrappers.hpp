@@ -46,6 +46,10 @@ std::unique_ptr<ScanSource> with_elevation_correction(std::unique_ptr<ScanSource
 /// points.
 std::unique_ptr<ScanSource> with_order_times(std::unique_ptr<ScanSource> inner);
 
+/// Gives every sweep of `inner` the times of azimuth_times(), clockwise, over the period that `inner` has, and says so
+/// in info().
+std::unique_ptr<ScanSource> with_azimuth_times(std::unique_ptr<ScanSource> inner);
+
 /// Warns of options that make no difference to the data of `inner`, which has just been opened, and of fields of the
 /// data that may hold times and are not used.
 std::unique_ptr<ScanSource> with_option_warnings(std::unique_ptr<ScanSource> inner, const SourceOptions& options);

@@ -9,6 +9,10 @@
 
 namespace rilo::detail {
 
+std::string azimuth_description(SpinDirection direction, double period_s) {
+  return "azimuth, " + std::string(to_string(direction)) + ", period " + std::to_string(period_s) + " s";
+}
+
 SweepTiming::SweepTiming(const SourceOptions& options, const PointTimeHints& hints, double period_s)
     : from_(options.point_times),
       spin_(options.spin_direction),
@@ -18,8 +22,7 @@ SweepTiming::SweepTiming(const SourceOptions& options, const PointTimeHints& hin
       decoder_(hints) {
   if (from_ != PointTimes::kAzimuth) return;
   has_times_ = true;
-  description_ =
-      "azimuth, " + std::string(to_string(options.spin_direction)) + ", period " + std::to_string(period_s) + " s";
+  description_ = azimuth_description(options.spin_direction, period_s);
 }
 
 void SweepTiming::promise(const std::optional<std::string>& times, const std::vector<RawTimes>& ends) {

@@ -11,6 +11,9 @@
 
 namespace rilo::detail {
 
+/// For SourceInfo::point_times.
+std::string azimuth_description(SpinDirection direction, double period_s);
+
 class SweepTiming {
  public:
   /// `period_s` is the one for azimuth times.

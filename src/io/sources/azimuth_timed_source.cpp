@@ -1,0 +1,34 @@
+// Sweeps with the times of the azimuth of their points.
+#include <utility>
+
+#include "io/sources/source_wrappers.hpp"
+#include "io/times/sweep_timing.hpp"
+#include "rilo/io/point_times.hpp"
+
+namespace rilo::detail {
+namespace {
+
+class AzimuthTimedSource final : public WrappedSource {
+ public:
+  using WrappedSource::WrappedSource;
+
+  std::optional<Sweep> next() override {
+    std::optional<Sweep> sweep = inner_->next();
+    if (sweep) sweep->times_s = azimuth_times(sweep->points, inner_->info().period_s, SpinDirection::kClockwise);
+    return sweep;
+  }
+  SourceInfo info() const override {
+    SourceInfo info = inner_->info();
+    info.has_point_times = true;
+    info.point_times = azimuth_description(SpinDirection::kClockwise, info.period_s);
+    return info;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<ScanSource> with_azimuth_times(std::unique_ptr<ScanSource> inner) {
+  return std::make_unique<AzimuthTimedSource>(std::move(inner));
+}
+
+}  // namespace rilo::detail

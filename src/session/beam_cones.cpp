@@ -19,7 +19,7 @@ constexpr float kNearestM = 2.0F;    // a vehicle's own roof ends there
 constexpr float kFarthestM = 20.0F;  // beyond, the way of a sweep hardly changes an elevation angle
 constexpr std::size_t kLeastPoints = 1000;
 constexpr double kStepRad = 0.02 * kRadPerDeg;  // beams are 0.2° apart and more
-constexpr double kClearly = 1.1;  // times as sharp: raw sweeps 1.5 and more, compensated ones 1.3 and more
+constexpr double kClearly = 1.2;  // times as sharp: raw sweeps 1.5 and more, compensated ones mostly 1.3 and more
 
 /// Measured points within the ranges above; times since the first.
 TimedCloud near_points(const Sweep& sweep) {

@@ -113,19 +113,20 @@ bool CompensationTrial::certain() const {
   return sweeps >= kLeast && static_cast<double>(lost) <= kMostLost * static_cast<double>(sweeps);
 }
 
+bool CompensationTrial::by_cones(std::size_t so_many) const {
+  return sweeps >= kLeast && static_cast<double>(so_many) >= kConesShare * static_cast<double>(sweeps);
+}
+
 bool CompensationTrial::raw() const {
-  const auto all = static_cast<double>(sweeps);
-  const bool by_cones = static_cast<double>(on_cones) >= kConesShare * all;
-  const bool not_by_cones = static_cast<double>(off_cones) >= kConesShare * all;
-  return certain() && static_cast<double>(better) >= kRawShare * all && !not_by_cones &&
-         (times != PointTimes::kAzimuth || by_cones);
+  const bool fits = certain() && static_cast<double>(better) >= kRawShare * static_cast<double>(sweeps);
+  // Sweeps that were simulated at one instant lie on the cones, too. With azimuth_times() the direction of the turn is
+  // a guess, and the fit alone would take KITTI's compensated sweeps for raw.
+  return fits && (times == PointTimes::kAzimuth ? by_cones(on_cones) : !by_cones(off_cones));
 }
 
 bool CompensationTrial::compensated() const {
-  const auto all = static_cast<double>(sweeps);
-  const bool by_cones = static_cast<double>(off_cones) >= kConesShare * all;
-  const bool not_by_cones = static_cast<double>(on_cones) >= kConesShare * all;
-  return certain() && (by_cones || (static_cast<double>(better) <= kCompensatedShare * all && !not_by_cones));
+  const bool fits = certain() && static_cast<double>(better) <= kCompensatedShare * static_cast<double>(sweeps);
+  return by_cones(off_cones) || (fits && times != PointTimes::kAzimuth);
 }
 
 CompensationTrial try_compensation(const OpenSource& open, std::size_t start, OdometryConfig config,

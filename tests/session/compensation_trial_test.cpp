@@ -95,21 +95,34 @@ TEST(CompensationTrial, IsCertainFromTenSweepsOnOfWhichATenthMayBeLost) {
 }
 
 // KITTI's compensated sweeps fit better with the times, too.
-TEST(CompensationTrial, TheConesOutweighTheFit) {
-  CompensationTrial trial{PointTimes::kAzimuth, 13, 13, 0, 13, 0};
-  EXPECT_FALSE(trial.raw());
-  EXPECT_TRUE(trial.compensated());
-  trial = {PointTimes::kAzimuth, 13, 0, 13, 0, 0};
-  EXPECT_FALSE(trial.raw()) << "raw, but not with these times";
-  EXPECT_FALSE(trial.compensated());
-  trial = {PointTimes::kAzimuth, 13, 13, 6, 0, 0};
-  EXPECT_FALSE(trial.raw()) << "nothing but the fit speaks for a sensor whose sweeps begin at the back";
-  trial.on_cones = 7;
+TEST(CompensationTrial, OffTheConesIsCompensatedWhateverTheFit) {
+  for (const PointTimes times : {PointTimes::kOrder, PointTimes::kAzimuth}) {
+    CompensationTrial trial{times, 13, 13, 0, 7, 0};
+    EXPECT_FALSE(trial.raw());
+    EXPECT_TRUE(trial.compensated());
+    trial.lost = 13;
+    EXPECT_TRUE(trial.compensated());
+    trial = {times, 9, 9, 0, 9, 0};
+    EXPECT_FALSE(trial.compensated()) << "too few";
+  }
+  const CompensationTrial few{PointTimes::kOrder, 13, 13, 0, 6, 0};
+  EXPECT_TRUE(few.raw());
+}
+
+TEST(CompensationTrial, OnTheConesIsRawWhereItFits) {
+  const CompensationTrial at_one_instant{PointTimes::kOrder, 13, 4, 13, 0, 0};  // as some simulators make them
+  EXPECT_FALSE(at_one_instant.raw());
+  EXPECT_TRUE(at_one_instant.compensated());
+  CompensationTrial trial{PointTimes::kAzimuth, 13, 8, 7, 0, 0};
   EXPECT_TRUE(trial.raw());
-  trial = {PointTimes::kOrder, 13, 13, 0, 6, 0};
-  EXPECT_TRUE(trial.raw()) << "the order is evidence, too";
-  trial.lost = 2;
-  EXPECT_FALSE(trial.raw() || trial.compensated());
+  trial.better = 7;
+  EXPECT_FALSE(trial.raw());
+  trial.better = 0;
+  EXPECT_FALSE(trial.compensated()) << "or raw, turning the other way";
+  trial = {PointTimes::kAzimuth, 13, 13, 6, 0, 0};
+  EXPECT_FALSE(trial.raw());
+  trial = {PointTimes::kAzimuth, 13, 13, 13, 0, 2};
+  EXPECT_FALSE(trial.raw());
 }
 
 TEST(CompensationTrial, RawPointsFitBetter) {

@@ -43,10 +43,13 @@ struct CompensationTrial {
 
   /// At least ten sweeps were compared, and hardly any was lost.
   bool certain() const;
-  /// Certain, 0.6 of the sweeps are better, and the cones do not say otherwise; with azimuth_times() they say so, too.
+  /// Certain, 0.6 of the sweeps are better, and by the cones they are not compensated; with azimuth_times() raw.
   bool raw() const;
-  /// Certain, and so say the cones, or at most 0.4 of the sweeps are better and the cones do not say otherwise.
+  /// By the cones; or certain and at most 0.4 of the sweeps are better, but with azimuth_times().
   bool compensated() const;
+
+ private:
+  bool by_cones(std::size_t so_many) const;
 };
 
 /// Called by Session::run(), on its thread, in the order of the events. An exception ends the run and

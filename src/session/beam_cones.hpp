@@ -1,10 +1,12 @@
 // Raw or compensated, by the cones of a sensor's beams.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/geometry/se3.hpp"
+#include "rilo/odometry/sweep_result.hpp"
 
 namespace rilo {
 
@@ -19,5 +21,19 @@ enum class ConeVerdict : std::uint8_t {
 /// for the sensor's way takes them off the cones. `sweep` has times; `twist`: velocity of the sensor [rad/s; m/s]. The
 /// pose that a compensation referred to may be at the begin, the middle or the end of the sweep.
 ConeVerdict on_beam_cones(const Sweep& sweep, const Vector6d& twist);
+
+/// The verdicts on the first sweeps of a run.
+class ConeVotes {
+ public:
+  /// A sweep was registered. It counts when it has times and the sensor moved, `period_s` from sweep to sweep.
+  void add(const Sweep& sweep, const SweepResult& result, double period_s);
+  /// Nine of the first ten that say something are compensated, although they have times.
+  bool compensated() const;
+
+ private:
+  std::size_t looked_at_ = 0;
+  std::size_t raw_ = 0;
+  std::size_t compensated_ = 0;
+};
 
 }  // namespace rilo

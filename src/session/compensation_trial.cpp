@@ -13,6 +13,7 @@
 #include "rilo/io/point_times.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "session/beam_cones.hpp"
+#include "session/comparable_sweep.hpp"
 
 namespace rilo {
 
@@ -26,18 +27,8 @@ constexpr double kConesShare = 0.5;        // of the compared sweeps: nearly all
 constexpr double kMostLost = 0.1;          // of the compared sweeps
 constexpr std::size_t kMostSweeps = 100;   // one that stands for longer is not compared
 constexpr std::size_t kBeginning = 3;      // sweeps of a map that is still built with guesses
-constexpr double kMovedM = 0.1;            // during a sweep, or ...
-constexpr double kTurnedRad = 0.02;
-
-bool registered(const SweepResult& result) {
-  return result.status == OdometryStatus::kOk || result.status == OdometryStatus::kDegenerate;
-}
 
 bool tracked(const SweepResult& result) { return registered(result) || result.status == OdometryStatus::kRecovered; }
-
-bool moved(const SweepResult& result, double period_s) {
-  return period_s * result.twist.head<3>().norm() > kTurnedRad || period_s * result.twist.tail<3>().norm() > kMovedM;
-}
 
 /// What is remembered of a sweep.
 struct Fit {

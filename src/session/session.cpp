@@ -14,6 +14,7 @@
 #include "io/sources/source_wrappers.hpp"
 #include "io/text.hpp"
 #include "rilo/io/point_times.hpp"
+#include "session/beam_cones.hpp"
 #include "session/compensation_trial.hpp"
 #include "session/process_memory.hpp"
 #include "session/steady_clock.hpp"
@@ -91,6 +92,12 @@ class Session::Impl {
       info.warnings.push_back(name_of(*options_.calibration) +
                               ": learnt from this recording too: errors look smaller than on a new one");
     }
+    if (cones_.compensated()) {
+      info.warnings.emplace_back(
+          "the points have times, but seem to be compensated for the motion already (they lie on the cones of the "
+          "beams "
+          "once that is undone): try --point-times none");
+    }
     return info;
   }
 
@@ -139,6 +146,7 @@ class Session::Impl {
     result.stamp_ns = pose_stamp_ns(result.stamp_ns, sweep->stamp_ns);
     result_.results.push_back(result);
     result_.indices.push_back(source_->current_index());
+    if (options_.config.preprocess.deskew) cones_.add(*sweep, result_.results.back(), source_->info().period_s);
     const RegisteredSweep registered{result_.indices.back(), *sweep, result_.results.back(), odometry_};
     for (SessionObserver* observer : observers_) observer->on_registered(registered);
     return true;
@@ -206,6 +214,7 @@ class Session::Impl {
   Odometry odometry_;
   std::vector<SessionObserver*> observers_;
   SessionResult result_;
+  ConeVotes cones_;
   std::vector<std::string> given_;  // warnings
 };
 

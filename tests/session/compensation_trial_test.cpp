@@ -148,8 +148,12 @@ TEST(CompensationTrial, TimedSweepsAreTriedWithTheirTimes) {
     EXPECT_EQ(trial.times, PointTimes::kAuto);
     EXPECT_EQ(trial.raw(), is_raw);
     EXPECT_EQ(trial.compensated(), !is_raw);
-    // A run takes the times that it is given.
+    // A run takes the times that it is given, and says when it should not.
     const SessionResult run = run_of(timed, PointTimes::kAuto);
+    EXPECT_EQ(run.source.warnings.size(), is_raw ? 0U : 1U);
+    if (!is_raw) {
+      EXPECT_NE(run.source.warnings.at(0).find("try --point-times none"), std::string::npos);
+    }
     EXPECT_EQ(poses_of(run), poses_of(run_of(timed, PointTimes::kNone)));
   }
 }

@@ -1,0 +1,19 @@
+// Sweeps that can tell raw points from compensated ones.
+#pragma once
+
+#include "rilo/odometry/sweep_result.hpp"
+
+namespace rilo {
+
+inline bool registered(const SweepResult& result) {
+  return result.status == OdometryStatus::kOk || result.status == OdometryStatus::kDegenerate;
+}
+
+/// By more than the noise of good poses, in `period_s`.
+inline bool moved(const SweepResult& result, double period_s) {
+  constexpr double kMovedM = 0.1;
+  constexpr double kTurnedRad = 0.02;
+  return period_s * result.twist.head<3>().norm() > kTurnedRad || period_s * result.twist.tail<3>().norm() > kMovedM;
+}
+
+}  // namespace rilo

@@ -216,7 +216,8 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   }
   result.covariance =
       pose_covariance_.of(icp, degenerate, acceleration, static_cast<double>(span.end_s - span.begin_s), uneven);
-  const Eigen::Vector3d step = tracker_.accept(icp, motion, degenerate);
+  // What is expected of the motion depends on what this sweep saw, not on what those before did.
+  const Eigen::Vector3d step = tracker_.accept(icp, motion, is_degenerate(icp, config_.health));
 
   if (map_.sweeps() >= 2) {
     threshold_.update(registration.T_init, tracker_.state().T_odom_lidar, step - last_step_);

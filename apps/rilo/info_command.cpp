@@ -72,7 +72,7 @@ std::vector<std::string> warnings_of(const DataSurvey& survey, const SourceInfo&
 
 /// Degrees of the horizon with points, of one sweep at most and of all that were read.
 nlohmann::json directions_json(const DataSurvey& survey) {
-  constexpr std::size_t kDegrees = 360 / DataSurvey::kSectors;
+  constexpr std::size_t kDegrees = 360 / kAzimuthSectors;
   return {{"one_sweep_deg", kDegrees * survey.sectors_max}, {"all_sweeps_deg", kDegrees * survey.directions.count()}};
 }
 

@@ -4,8 +4,8 @@
 
 namespace rilo {
 
-bool is_degenerate(const IcpResult& icp, const HealthConfig& config) {
-  return icp.degeneracy.relative_eigenvalues[0] < config.degenerate_ratio;
+bool is_degenerate(const IcpResult& icp, const HealthConfig& config, double unseen_share) {
+  return icp.degeneracy.relative_eigenvalues[0] < (1.0 + unseen_share) * config.degenerate_ratio;
 }
 
 bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
@@ -33,8 +33,7 @@ OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const Healt
   if (evidence.was_lost) {
     return OdometryStatus::kRecovered;
   }
-  // What was put together while a direction was not seen shows how it was put together, too.
-  if (icp.degeneracy.relative_eigenvalues[0] < (1.0 + evidence.unseen_share) * config.degenerate_ratio) {
+  if (is_degenerate(icp, config, evidence.unseen_share)) {
     return OdometryStatus::kDegenerate;
   }
   return OdometryStatus::kOk;

@@ -23,8 +23,9 @@ struct Evidence {
   double unseen_share = 0;      ///< of the sweeps before: those that were degenerate
 };
 
-/// Whether the sweep says too little in one direction.
-bool is_degenerate(const IcpResult& icp, const HealthConfig& config);
+/// Whether the sweep says too little in one direction. After sweeps of which a share did it must say more: what was put
+/// together while a direction was not seen shows how it was put together, too.
+bool is_degenerate(const IcpResult& icp, const HealthConfig& config, double unseen_share = 0.0);
 
 /// Status of a registered sweep.
 OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);

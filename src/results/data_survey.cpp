@@ -1,8 +1,6 @@
 #include "results/data_survey.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "results/unusable_sweeps.hpp"
 #include "rilo/io/point_times.hpp"
@@ -12,12 +10,6 @@ namespace rilo {
 namespace {
 
 constexpr std::size_t kSweepsLookedAt = 50;
-constexpr std::size_t kSectors = DataSurvey::kSectors;
-
-std::size_t sector_of(const Eigen::Vector3f& p) {
-  const double turn = std::atan2(static_cast<double>(p.y()), static_cast<double>(p.x())) / (2.0 * std::numbers::pi);
-  return std::min(static_cast<std::size_t>((turn + 0.5) * kSectors), kSectors - 1);
-}
 
 void look_at(const Sweep& sweep, DataSurvey& survey) {
   const std::size_t n = sweep.points.size();
@@ -26,7 +18,7 @@ void look_at(const Sweep& sweep, DataSurvey& survey) {
   survey.points += n;
   if (survey.read++ == 0) survey.in_order = order_times(sweep.points, 1).has_value();
   const std::size_t stride = std::max<std::size_t>(1, n / 2000);  // enough for percentiles
-  std::bitset<kSectors> directions;
+  std::bitset<kAzimuthSectors> directions;
   for (std::size_t i = 0; i < n; ++i) {
     const bool finite = sweep.points[i].allFinite();
     survey.not_finite += finite ? 0 : 1;
@@ -34,7 +26,7 @@ void look_at(const Sweep& sweep, DataSurvey& survey) {
       const double range_m = sweep.points[i].cast<double>().norm();
       survey.usable += within_range(range_m, PreprocessConfig{}) ? 1 : 0;
       survey.ranges.push_back(range_m);
-      directions.set(sector_of(sweep.points[i]));
+      directions.set(azimuth_sector(sweep.points[i]));
     }
   }
   survey.directions |= directions;

@@ -6,13 +6,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "cloud/azimuth_sector.hpp"
 #include "rilo/io/scan_source.hpp"
 
 namespace rilo {
 
 struct DataSurvey {
-  static constexpr std::size_t kSectors = 36;  ///< of 10°
-
   bool complete = false;  ///< every sweep was looked at
   std::size_t sweeps = 0;
   std::size_t read = 0;
@@ -20,10 +19,10 @@ struct DataSurvey {
   std::size_t least = 0;
   std::size_t most = 0;
   std::size_t not_finite = 0;
-  std::size_t usable = 0;            ///< neither too near nor too far, of those in `ranges`
-  std::vector<double> ranges;        ///< of some points of each sweep, m
-  std::bitset<kSectors> directions;  ///< in which any sweep has points
-  std::size_t sectors_max = 0;       ///< of one sweep
+  std::size_t usable = 0;                   ///< neither too near nor too far, of those in `ranges`
+  std::vector<double> ranges;               ///< of some points of each sweep, m
+  std::bitset<kAzimuthSectors> directions;  ///< in which any sweep has points
+  std::size_t sectors_max = 0;              ///< of one sweep
   std::vector<std::int64_t> stamps;
   float times_begin = 0;
   float times_end = 0;

@@ -21,7 +21,6 @@ constexpr float kFarthestM = 20.0F;  // beyond, the way of a sweep hardly change
 constexpr std::size_t kLeastPoints = 1000;
 constexpr double kStepRad = 0.02 * kRadPerDeg;  // beams are 0.2° apart and more
 constexpr double kClearly = 1.2;  // times as sharp: raw sweeps 1.5 and more, compensated ones mostly 1.3 and more
-
 constexpr std::size_t kVotes = 10;
 constexpr std::size_t kNearlyAllVotes = 9;
 constexpr std::size_t kMostLookedAt = 40;  // each takes up to 20 ms
@@ -77,9 +76,10 @@ ConeVerdict on_beam_cones(const Sweep& sweep, const Vector6d& twist) {
   return undone > kClearly * as_read ? ConeVerdict::kCompensated : ConeVerdict::kNothing;
 }
 
+bool ConeVotes::open() const { return raw_ + compensated_ < kVotes && looked_at_ < kMostLookedAt; }
+
 void ConeVotes::add(const Sweep& sweep, const SweepResult& result, double period_s) {
-  if (raw_ + compensated_ == kVotes || looked_at_ == kMostLookedAt) return;
-  if (sweep.times_s.empty() || !registered(result) || !moved(result, period_s)) return;
+  if (!open() || sweep.times_s.empty() || !registered(result) || !moved(result, period_s)) return;
   ++looked_at_;
   const ConeVerdict verdict = on_beam_cones(sweep, result.twist);
   raw_ += verdict == ConeVerdict::kRaw ? 1 : 0;

@@ -25,6 +25,8 @@ ConeVerdict on_beam_cones(const Sweep& sweep, const Vector6d& twist);
 /// The verdicts on the first sweeps of a run.
 class ConeVotes {
  public:
+  /// More sweeps count.
+  bool open() const;
   /// A sweep was registered. It counts when it has times and the sensor moved, `period_s` from sweep to sweep.
   void add(const Sweep& sweep, const SweepResult& result, double period_s);
   /// Nine of the first ten that say something are compensated, although they have times.

@@ -1,13 +1,11 @@
 #include "session/compensation_trial.hpp"
 
-#include <algorithm>
 #include <bitset>
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "cloud/azimuth_sector.hpp"
 #include "cloud/measured_point.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
@@ -39,13 +37,10 @@ struct Fit {
 
 /// Whether points lie in nearly all directions around the z axis.
 bool all_round(const std::vector<Eigen::Vector3f>& points) {
-  constexpr std::size_t kSectors = 36;
   constexpr std::size_t kNearlyAll = 33;
-  std::bitset<kSectors> seen;
+  std::bitset<kAzimuthSectors> seen;
   for (const Eigen::Vector3f& p : points) {
-    if (!detail::is_measured(p)) continue;
-    const auto turn = static_cast<double>(std::atan2(p.y(), p.x())) / (2.0 * std::numbers::pi) + 0.5;
-    seen.set(std::min(static_cast<std::size_t>(turn * kSectors), kSectors - 1));
+    if (detail::is_measured(p)) seen.set(azimuth_sector(p));
   }
   return seen.count() >= kNearlyAll;
 }
@@ -59,15 +54,12 @@ PointTimes times_for(const Sweep& sweep) {
 
 /// False when it cannot have those times.
 bool give_times(Sweep& sweep, PointTimes times, double period_s) {
-  if (times == PointTimes::kAuto) return !sweep.times_s.empty();
   if (times == PointTimes::kOrder) {
-    auto in_order = order_times(sweep.points, period_s);
-    if (!in_order) return false;
-    sweep.times_s = std::move(*in_order);
-    return true;
+    sweep.times_s = order_times(sweep.points, period_s).value_or(std::vector<float>{});
+  } else if (times == PointTimes::kAzimuth) {
+    sweep.times_s = azimuth_times(sweep.points, period_s, SpinDirection::kClockwise);
   }
-  sweep.times_s = azimuth_times(sweep.points, period_s, SpinDirection::kClockwise);
-  return times == PointTimes::kAzimuth;
+  return !sweep.times_s.empty();
 }
 
 /// Of at most `most` sweeps of `source`; with times, until enough moved.

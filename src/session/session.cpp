@@ -146,7 +146,9 @@ class Session::Impl {
     result.stamp_ns = pose_stamp_ns(result.stamp_ns, sweep->stamp_ns);
     result_.results.push_back(result);
     result_.indices.push_back(source_->current_index());
-    if (options_.config.preprocess.deskew) cones_.add(*sweep, result_.results.back(), source_->info().period_s);
+    if (options_.config.preprocess.deskew && cones_.open()) {
+      cones_.add(*sweep, result_.results.back(), source_->info().period_s);
+    }
     const RegisteredSweep registered{result_.indices.back(), *sweep, result_.results.back(), odometry_};
     for (SessionObserver* observer : observers_) observer->on_registered(registered);
     return true;

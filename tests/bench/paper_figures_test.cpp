@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "shared_folder.hpp"
+
 namespace rilo {
 namespace {
 
@@ -83,9 +85,7 @@ std::vector<double> numbers_of_table(const std::string& tex, const std::string& 
 }
 
 std::string paper() {
-  const char* told = std::getenv("RILO_SHARED");
-  const std::filesystem::path shared = told != nullptr ? told : RILO_SOURCE_DIR "/../shared";
-  std::ifstream stream(shared / "paper" / "adaptive-icp-lidar-odometry.tex", std::ios::binary);
+  std::ifstream stream(test::shared_folder() / "paper" / "adaptive-icp-lidar-odometry.tex", std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 

@@ -14,13 +14,9 @@
 #include <vector>
 
 #include "rilo/geometry/se3.hpp"
+#include "shared_folder.hpp"
 
 namespace rilo::test {
-
-inline std::filesystem::path shared_folder() {
-  const char* told = std::getenv("RILO_SHARED");
-  return told != nullptr ? std::filesystem::path(told) : std::filesystem::path(RILO_SOURCE_DIR) / ".." / "shared";
-}
 
 inline std::string output_of(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), &pclose);

@@ -6,16 +6,14 @@
 #include <string>
 
 #include "io/io_test_util.hpp"
+#include "shared_folder.hpp"
 
 namespace rilo::test {
 
 class RealFiles : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const char* told = std::getenv("RILO_SHARED");
-    const std::filesystem::path shared =
-        told != nullptr ? std::filesystem::path(told) : std::filesystem::path(RILO_SOURCE_DIR).parent_path() / "shared";
-    const std::filesystem::path archive = shared / "data/formats.tar.xz";
+    const std::filesystem::path archive = shared_folder() / "data/formats.tar.xz";
     if (!std::filesystem::exists(archive)) return;
     folder = new TempDir();
     const std::string command = "tar -xJf '" + archive.string() + "' -C '" + folder->path().string() +

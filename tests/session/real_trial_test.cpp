@@ -8,6 +8,7 @@
 #include "io/io_test_util.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "session/compensation_trial.hpp"
+#include "shared_folder.hpp"
 
 namespace rilo::test {
 namespace {
@@ -20,12 +21,7 @@ CompensationTrial trial_of_archive(const std::string& name, const std::filesyste
   return try_compensation([&] { return open_scan_source(folder / name); }, 0, {}, {});
 }
 
-std::filesystem::path archive_of(const std::string& name) {
-  const char* told = std::getenv("RILO_SHARED");
-  const std::filesystem::path shared =
-      told != nullptr ? std::filesystem::path(told) : std::filesystem::path(RILO_SOURCE_DIR).parent_path() / "shared";
-  return shared / "data" / (name + ".tar.xz");
-}
+std::filesystem::path archive_of(const std::string& name) { return shared_folder() / "data" / (name + ".tar.xz"); }
 
 TEST(RealTrial, KittiOdometryIsCompensated) {
   const std::filesystem::path archive = archive_of("kitti00_16");

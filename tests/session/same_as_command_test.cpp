@@ -7,6 +7,7 @@
 #include "cli/command_process.hpp"
 #include "rilo/io/trajectory_files.hpp"
 #include "rilo/session/session.hpp"
+#include "shared_folder.hpp"
 #include "simulation/drive_writer.hpp"
 
 namespace rilo::test {
@@ -49,9 +50,7 @@ TEST(SameAsCommand, OnKittiRaw0001) {
   GTEST_SKIP()
       << "four passes over real sweeps take sanitizers a quarter of an hour; the simulated drive runs the same code";
 #endif
-  const char* told = std::getenv("RILO_SHARED");
-  const fs::path shared = told != nullptr ? fs::path(told) : fs::path(RILO_SOURCE_DIR).parent_path() / "shared";
-  const fs::path archive = shared / "data" / "kitti_raw_0001.tar.xz";
+  const fs::path archive = shared_folder() / "data" / "kitti_raw_0001.tar.xz";
   if (!fs::exists(archive)) GTEST_SKIP() << "no " << archive;
   const TempDir folder;
   const std::string command = "tar -xJf '" + archive.string() + "' -C '" + folder.path().string() + "'";

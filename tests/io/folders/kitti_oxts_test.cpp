@@ -11,6 +11,7 @@
 #include "io/io_test_util.hpp"
 #include "rilo/geometry/se3.hpp"
 #include "rilo/io/trajectory_files.hpp"
+#include "shared_folder.hpp"
 
 namespace rilo::test {
 namespace {
@@ -158,9 +159,7 @@ TEST(KittiOxtsTest, DamagedDrives) {
 
 // A real drive: what others computed from the same numbers.
 TEST(KittiOxtsTest, RealDriveAsComputedElsewhere) {
-  const char* told = std::getenv("RILO_SHARED");
-  const fs::path shared = told != nullptr ? fs::path(told) : fs::path(RILO_SOURCE_DIR).parent_path() / "shared";
-  const fs::path archive = shared / "data/kitti_raw_0001.tar.xz";
+  const fs::path archive = shared_folder() / "data/kitti_raw_0001.tar.xz";
   if (!fs::exists(archive)) {
     GTEST_SKIP() << "no ../shared/data/kitti_raw_0001.tar.xz";
   }

@@ -135,7 +135,12 @@ void add_peers(BenchFlags& flags, BenchPlan& plan) {
   plan.peers = std::move(peers);
   give_peers(plan);
   if (!flags.peer_figures.empty()) plan.peer_figures = flags.peer_figures;
-  if (!plan.peer_figures.empty()) flags.order.peer_figures = read_peer_figures(plan.peer_figures);
+  if (plan.peer_figures.empty()) return;
+  flags.order.peer_figures = read_peer_figures(plan.peer_figures);
+  if (flags.order.run.count > 0 && !flags.order.run.quiet) {
+    std::cerr << "rilo: warning: " << plan.peer_figures.string()
+              << ": its figures are of whole drives; with --count its times alone are used\n";
+  }
 }
 
 std::vector<BenchJob> plan_jobs(BenchFlags& flags) {
@@ -158,10 +163,9 @@ BenchConfiguration configuration_of(const BenchFlags& flags) {
   result.name = "rilo";
   result.settings = flags.settings;
   if (!flags.config_file.empty()) {
-    result.config = load_config(flags.config_file);
     result.settings.insert(result.settings.begin(), "config " + last_name(flags.config_file));
   }
-  result.config = with_overrides(result.config, flags.settings);
+  result.config = load_config(flags.config_file, flags.settings);
   return result;
 }
 

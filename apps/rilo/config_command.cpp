@@ -30,8 +30,7 @@ int config(const ConfigFlags& flags) {
     std::cout << flags.check << ": ok\n";
     return kSuccess;
   }
-  const OdometryConfig base = flags.file.empty() ? OdometryConfig{} : load_config(flags.file);
-  const OdometryConfig merged = with_overrides(base, flags.settings);
+  const OdometryConfig merged = load_config(flags.file, flags.settings);
   std::cout << (flags.markdown ? config_markdown(merged) : dump_config(merged));
   return kSuccess;
 }

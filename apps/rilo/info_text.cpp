@@ -54,11 +54,14 @@ std::string compensation_text(const nlohmann::json& j) {
   const bool raw = trial["raw"].get<bool>();
   const bool compensated = trial["compensated"].get<bool>();
   const std::string times = word(trial["times"]);
+  // Sweeps that were simulated at one instant are raw, too, and fit no times.
+  const bool wrong_times = compensated && timed(j) && 2 * count(trial["on_cones"]) > count(trial["sweeps"]);
   return fmt::format("motion        {} of {} fit better when their points are compensated with {}{}: {}\n",
                      count(trial["better"]), counted(count(trial["sweeps"]), "sweep"),
                      timed(j) ? "their times" : "the times of their " + times,
                      cones_text(count(trial["on_cones"]), count(trial["off_cones"])),
                      raw           ? "raw points"
+                     : wrong_times ? "raw points that these times do not fit: another field, unit or order?"
                      : compensated ? "they are compensated already"
                                    : "not certain");
 }

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -56,12 +57,23 @@ Examples:
   rilo quality kitti/sequences/00 results/00/poses_lidar.txt
   rilo quality drive results/trajectory.tum --max-range 60 --json)";
 
+/// Which sweeps have a pose is not known where there are fewer or more of them.
+std::optional<std::string> doubtful_pairs(const SweepPoses& poses, const std::optional<std::size_t>& sweeps) {
+  if (poses.by_stamp() || !sweeps || *sweeps == poses.size()) return std::nullopt;
+  return fmt::format(
+      "{} for {}, paired one after the other, which is wrong where the poses begin later (--start tells where) or lack "
+      "a "
+      "sweep (poses with stamps, as in trajectory.tum, tell which)",
+      counted(poses.size(), "pose"), counted(*sweeps, "sweep"));
+}
+
 QualityRun measure(const QualityFlags& flags) {
   const SweepPoses poses(read_poses(flags.poses), flags.pairing);
   MapQualityMeter meter(flags.config);
   const auto source = open_scan_source(flags.data, flags.source.options);
   source->skip(flags.start);
-  Progress progress("rilo", sweeps_to_do(*source, flags.start, flags.count), flags.quiet);
+  const std::optional<std::size_t> sweeps = sweeps_to_do(*source, flags.start, flags.count);
+  Progress progress("rilo", sweeps, flags.quiet);
   const auto read = [&](std::size_t index) -> std::optional<Sweep> {
     if ((flags.count > 0 && index >= flags.count) || poses.end(index)) return std::nullopt;
     std::optional<Sweep> sweep = source->next();
@@ -79,11 +91,12 @@ QualityRun measure(const QualityFlags& flags) {
     progress.update(++at.index);
   }
   progress.finish();
-  const MapQuality quality = meter.result();
-  return {quality,
-          fmt::format("{}; {}, for {} of {}", poses.protocol(), counted(poses.size(), "pose"), quality.sweeps,
-                      counted(at.index, "sweep")),
-          source->info()};
+  QualityRun run{meter.result(), "", source->info()};
+  run.protocol = fmt::format("{}; {}, for {} of {}", poses.protocol(), counted(poses.size(), "pose"),
+                             run.quality.sweeps, counted(sweeps.value_or(at.index), "sweep"));
+  const auto doubt = doubtful_pairs(poses, sweeps_to_do(*source, flags.start, 0));
+  if (doubt) run.source.warnings.push_back(flags.poses + ": " + *doubt);
+  return run;
 }
 
 void check_found(const QualityFlags& flags, const QualityRun& run) {

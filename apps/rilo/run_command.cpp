@@ -67,8 +67,7 @@ Ctrl-C, SIGTERM or a closed terminal ends the run after the current sweep and wr
 it at once.)";
 
 OdometryConfig configuration(const RunFlags& flags) {
-  const OdometryConfig from_file = flags.config_file.empty() ? OdometryConfig{} : load_config(flags.config_file);
-  OdometryConfig config = with_overrides(from_file, flags.settings);
+  OdometryConfig config = load_config(flags.config_file, flags.settings);
   if (flags.threads >= 0) config.threads = flags.threads;
   return config;
 }

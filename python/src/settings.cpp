@@ -62,6 +62,8 @@ std::vector<std::string> texts_of(const py::object& settings) {
   return texts;
 }
 
+constexpr const char* kConfigExpected = "a dict, YAML text or the path of a YAML file";
+
 struct GivenYaml {
   std::string text;
   bool is_path = false;  // the text is one
@@ -79,14 +81,17 @@ GivenYaml yaml_of(const py::object& given, const char* name, const char* expecte
 OdometryConfig base_of(const py::object& config) {
   if (config.is_none()) return {};
   if (is_mapping(config)) return with_overrides({}, texts_of(config), "config");
-  const auto given = yaml_of(config, "config", "a dict, YAML text or the path of a YAML file");
-  if (given.is_path) return load_config(given.text);
+  const auto given = yaml_of(config, "config", kConfigExpected);
   return given.text.empty() ? OdometryConfig{} : parse_config(given.text, "config");
 }
 
 }  // namespace
 
 OdometryConfig config_of(const py::object& config, const py::object& settings) {
+  if (!config.is_none() && !is_mapping(config)) {
+    const auto given = yaml_of(config, "config", kConfigExpected);
+    if (given.is_path) return load_config(given.text, texts_of(settings), "settings");
+  }
   return with_overrides(base_of(config), texts_of(settings), "settings");
 }
 

@@ -52,6 +52,7 @@ struct BenchRecord {
   std::vector<BenchCell> cells;
   std::size_t planned = 0;  ///< cells that should have been, peers not counted
   std::size_t run = 0;      ///< of them, those that came to an end
+  std::size_t count = 0;    ///< sweeps of every sequence; 0: all, or as the plan says
   int signal = 0;           ///< that ended it early, 0: none
 };
 

@@ -19,9 +19,16 @@ constexpr const char* kPairedCsv = "paired.csv";
 constexpr const char* kResultsMd = "results.md";
 
 std::vector<TitledTable> paper_tables(const BenchOutput& output, MeasuredColumns measured) {
-  if (output.tables == PaperTables::kKitti) return kitti_tables(output.bench.cells, measured);
-  if (output.tables == PaperTables::kM2dgr) return m2dgr_tables(output.bench.cells);
-  return {};
+  std::vector<TitledTable> tables;
+  if (output.tables == PaperTables::kKitti) tables = kitti_tables(output.bench.cells, measured);
+  if (output.tables == PaperTables::kM2dgr) tables = m2dgr_tables(output.bench.cells);
+  if (output.bench.count == 0) return tables;
+  const std::string part = "the first " + counted(output.bench.count, "sweep") + " of each sequence";
+  for (TitledTable& table : tables) {
+    table.title += "; ours: " + part;
+    table.note = "Not to be compared: the paper's figures are of whole sequences, ours of " + part + ". " + table.note;
+  }
+  return tables;
 }
 
 }  // namespace

@@ -36,21 +36,22 @@ std::vector<std::string> groups_of(const std::vector<BenchCell>& cells) {
   return groups;
 }
 
-// The one with the least t_rel; without any, one that failed. Null where no peer was given.
+// The one with the least t_rel; without any, one that has none. Null where no peer was given or could be read.
 const BenchCell* best_peer(const std::vector<BenchCell>& cells, const std::string& sequence) {
   const BenchCell* best = nullptr;
   for (const BenchCell& cell : cells) {
-    if (!cell.peer || cell.sequence != sequence) continue;
+    if (!cell.peer || cell.failed() || cell.sequence != sequence) continue;
     const auto value = t_rel(cell);
     if (best == nullptr || (value && (!t_rel(*best) || *value < *t_rel(*best)))) best = &cell;
   }
   return best;
 }
 
+// Poses that could not be read say nothing about the program that they are of.
 const BenchCell* peer_on(const std::vector<BenchCell>& cells, const std::string& sequence, const std::string& peer) {
   if (peer == kBestPeer) return best_peer(cells, sequence);
   const auto found = std::find_if(cells.begin(), cells.end(), [&](const BenchCell& cell) {
-    return cell.peer && cell.sequence == sequence && cell.configuration == peer;
+    return cell.peer && !cell.failed() && cell.sequence == sequence && cell.configuration == peer;
   });
   return found == cells.end() ? nullptr : &*found;
 }
@@ -69,7 +70,20 @@ std::vector<PairedFigure> pairs_of(const std::vector<BenchCell>& cells, const Be
 
 std::string listed(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
-TitledTable comparison_table(const std::vector<BenchComparison>& comparisons) {
+// "\nnot compared with …", a line for each peer of which some poses could not be read.
+std::string not_compared(const std::vector<BenchCell>& cells) {
+  std::string lines;
+  for (const std::string& peer : names_of(cells, true)) {
+    std::vector<std::string> sequences;
+    for (const BenchCell& cell : cells) {
+      if (cell.peer && cell.failed() && cell.configuration == peer) add_once(sequences, cell.sequence);
+    }
+    if (!sequences.empty()) lines += fmt::format("\nnot compared with {}, which failed: {}", peer, listed(sequences));
+  }
+  return lines;
+}
+
+TitledTable comparison_table(const std::vector<BenchCell>& cells, const std::vector<BenchComparison>& comparisons) {
   TitledTable result{"t_rel over that of the peers, drive by drive", {}, ""};
   result.table.left = 3;
   result.table.header = {"configuration", "peer",  "drives of", "drives",    "mean ratio", "with lost",   "worst",
@@ -92,6 +106,7 @@ TitledTable comparison_table(const std::vector<BenchComparison>& comparisons) {
       "sign test: p of ahead and behind, two-sided, exact. best peer: the best one of each drive, chosen afterwards.",
       kLostAbovePct);
   for (const std::string& line : lost) result.note += line;
+  result.note += not_compared(cells);
   return result;
 }
 
@@ -145,7 +160,7 @@ std::vector<BenchComparison> bench_comparisons(const std::vector<BenchCell>& cel
 std::vector<TitledTable> paired_tables(const std::vector<BenchCell>& cells) {
   const auto comparisons = bench_comparisons(cells);
   if (comparisons.empty()) return {};
-  return {ratio_table(cells), comparison_table(comparisons)};
+  return {ratio_table(cells), comparison_table(cells, comparisons)};
 }
 
 TextTable paired_csv(const std::vector<BenchCell>& cells) {

@@ -9,7 +9,8 @@
 
 namespace rilo {
 
-/// A drive with a larger t_rel, or without one, is lost.
+/// A drive with a larger t_rel, or without one, is lost. One on which the peer failed, as its poses could not be read,
+/// is not compared.
 constexpr double kLostAbovePct = 10;
 
 /// Stands for the peer with the least t_rel on each drive.

@@ -54,7 +54,7 @@ std::vector<BenchCell> read_peer_figures(const std::filesystem::path& file) {
   return cells;
 }
 
-void add_peer_figures(const std::vector<BenchCell>& figures, const std::string& sequence,
+void add_peer_figures(const std::vector<BenchCell>& figures, const std::string& sequence, bool whole,
                       std::vector<StoredCell>& cells) {
   for (const BenchCell& given : figures) {
     if (given.sequence != sequence) continue;
@@ -62,7 +62,7 @@ void add_peer_figures(const std::vector<BenchCell>& figures, const std::string& 
       return stored.cell.peer && stored.cell.sequence == sequence && stored.cell.configuration == given.configuration;
     });
     if (same == cells.end()) {
-      cells.push_back({given, "", 1, ""});
+      if (whole) cells.push_back({given, "", 1, ""});
     } else if (!same->cell.failed() && given.metrics.timed()) {
       same->cell.metrics.ms = given.metrics.ms;
     }

@@ -15,8 +15,9 @@ namespace rilo {
 std::vector<BenchCell> read_peer_figures(const std::filesystem::path& file);
 
 /// Puts those of `figures` that belong to `sequence` behind the peers in `cells`. A peer that has poses there keeps
-/// what they say, and gets the times that are in the file.
-void add_peer_figures(const std::vector<BenchCell>& figures, const std::string& sequence,
+/// what they say, and gets the times that are in the file. The figures are of whole drives: where a part was run, not
+/// `whole`, the times alone count.
+void add_peer_figures(const std::vector<BenchCell>& figures, const std::string& sequence, bool whole,
                       std::vector<StoredCell>& cells);
 
 }  // namespace rilo

@@ -144,6 +144,7 @@ class BenchRunner {
     store.bench.planned = jobs_.size();
     store.bench.run = finished_jobs();
     store.bench.signal = signal_;
+    store.bench.count = order_.run.count;
     std::set<std::string> peers_done;
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
       const std::string& sequence = jobs_[i].sequence.name;
@@ -151,7 +152,7 @@ class BenchRunner {
       if (record != records_.end()) add_cells(jobs_[i], record->second, peers_done, store);
       const bool last = i + 1 == jobs_.size() || jobs_[i + 1].sequence.name != sequence;
       const bool any = !store.cells.empty() && store.cells.back().cell.sequence == sequence;
-      if (last && any) add_peer_figures(order_.peer_figures, sequence, store.cells);
+      if (last && any) add_peer_figures(order_.peer_figures, sequence, order_.run.count == 0, store.cells);
     }
     if (store.bench.run == jobs_.size()) add_missing_peers(peers_done, store);
     return store;

@@ -127,6 +127,7 @@ nlohmann::json experiment_json(const BenchStore& store) {
           {"planned", store.bench.planned},
           {"run", store.bench.run},
           {"signal", store.bench.signal},
+          {"count", store.bench.count},
           {"tables", kTableNames[static_cast<std::size_t>(store.tables)]}};
 }
 
@@ -135,6 +136,7 @@ void read_experiment(const nlohmann::json& json, BenchStore& store) {
   store.bench.planned = json.at("planned");
   store.bench.run = json.at("run");
   store.bench.signal = json.at("signal");
+  store.bench.count = json.value("count", std::size_t{0});  // stores of before 29 November 2026 have none
   for (std::size_t i = 0; i < kTableNames.size(); ++i) {
     if (json.at("tables") == kTableNames[i]) store.tables = static_cast<PaperTables>(i);
   }

@@ -42,7 +42,7 @@ void check_together(const OdometryConfig& config, const std::string& file, const
   } catch (const std::invalid_argument& error) {
     const std::string what = error.what();
     const auto named = std::find_if(positions.begin(), positions.end(), [&what](const auto& key) {
-      return what.find(key.first + " ") != std::string::npos || what.ends_with(key.first);
+      return what.find(key.first + " ") != std::string::npos || what.find(key.first + ",") != std::string::npos;
     });
     throw ConfigError({file, named == positions.end() ? "" : named->second, what, "", ""});
   }
@@ -96,26 +96,19 @@ class Loader {
   Positions seen_;
 };
 
-}  // namespace
+std::string text_of(const std::filesystem::path& file) {
+  return detail::read_yaml_file(file, "a configuration file (YAML)", "`rilo config --dump > FILE` makes one");
+}
 
-OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base) {
-  OdometryConfig config = base;
+// Returns where the keys are.
+Positions load_into(OdometryConfig& config, std::string_view yaml, const std::string& name) {
   const ConfigKeys keys = odometry_keys(config);
   Loader loader(keys, name);
   loader.load(detail::parse_yaml(yaml, name, kConfigHint));
-  check_together(config, name, loader.positions());
-  return config;
+  return loader.positions();
 }
 
-OdometryConfig load_config(const std::filesystem::path& file, const OdometryConfig& base) {
-  const std::string text =
-      detail::read_yaml_file(file, "a configuration file (YAML)", "`rilo config --dump > FILE` makes one");
-  return parse_config(text, file.string(), base);
-}
-
-OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std::string>& overrides,
-                              const std::string& origin) {
-  OdometryConfig config = base;
+void override_values(OdometryConfig& config, const std::vector<std::string>& overrides, const std::string& origin) {
   const ConfigKeys keys = odometry_keys(config);
   for (const std::string& text : overrides) {
     const Place place{origin + " " + text.substr(0, detail::kLongestQuote), ""};
@@ -128,6 +121,34 @@ OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std:
     if (key == nullptr) refuse_key(keys, name, place);
     set_key(*key, text.substr(equals + 1), place);
   }
+}
+
+}  // namespace
+
+OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base) {
+  OdometryConfig config = base;
+  check_together(config, name, load_into(config, yaml, name));
+  return config;
+}
+
+OdometryConfig load_config(const std::filesystem::path& file, const OdometryConfig& base) {
+  return parse_config(text_of(file), file.string(), base);
+}
+
+OdometryConfig load_config(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                           const std::string& origin) {
+  if (file.empty()) return with_overrides({}, overrides, origin);
+  OdometryConfig config;
+  const Positions positions = load_into(config, text_of(file), file.string());
+  override_values(config, overrides, origin);
+  check_together(config, file.string(), positions);
+  return config;
+}
+
+OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std::string>& overrides,
+                              const std::string& origin) {
+  OdometryConfig config = base;
+  override_values(config, overrides, origin);
   if (!overrides.empty()) check_together(config, origin, {});
   return config;
 }

@@ -56,7 +56,10 @@ class RangeCheck : public KeyVisitor {
 
 template <typename Number>
 void check_order(const char* name, Number value, const char* least_name, Number least) {
-  if (value < least) refuse(name, value, "at least that of " + std::string(least_name));
+  if (value >= least) return;
+  std::ostringstream expected;
+  expected << "at least that of " << least_name << ", " << least;
+  refuse(name, value, expected.str());
 }
 
 }  // namespace

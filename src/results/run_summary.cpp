@@ -24,16 +24,11 @@ std::string statuses(const RunMetrics& m) {
     if (count > 0) text += fmt::format(" {} {}", name, count);
   }
   if (m.budget) {
-    text += fmt::format("\nbudget {:.1f} ms  fewer points on {}, coarse stage cut on {}, over budget on {}",
-                        m.budget->sweep_ms, counted(m.budget->points_cut, "sweep"), m.budget->coarse_cut,
-                        m.budget->over_budget);
+    text += fmt::format("\nbudget {:<8} fewer points on {}, coarse stage cut on {}, over budget on {}",
+                        fmt::format("{:.1f} ms", m.budget->sweep_ms), counted(m.budget->points_cut, "sweep"),
+                        m.budget->coarse_cut, m.budget->over_budget);
   }
-  text += "\n";
-  const auto begun = m.status.find("initialising");
-  if (begun != m.status.end() && begun->second > 1 && 2 * begun->second > m.frames.value_or(0)) {
-    text += "                map after map begins: neighbouring sweeps do not fit; rilo info describes the sweeps\n";
-  }
-  return text;
+  return text + "\n";
 }
 
 std::string flakes(const RunMetrics& m) {

@@ -42,6 +42,7 @@ class SweepPoses {
   /// Whether no sweep from `index` on has a pose.
   bool end(std::size_t index) const { return !by_stamp_ && index >= size(); }
 
+  bool by_stamp() const { return by_stamp_; }
   std::size_t size() const { return file_.trajectory.size(); }
   std::string protocol() const;
 

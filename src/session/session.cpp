@@ -16,6 +16,7 @@
 #include "rilo/io/point_times.hpp"
 #include "session/beam_cones.hpp"
 #include "session/compensation_trial.hpp"
+#include "session/map_beginnings.hpp"
 #include "session/process_memory.hpp"
 #include "session/steady_clock.hpp"
 
@@ -55,6 +56,7 @@ class Session::Impl {
     result_.elevation_given_deg = elevation_given_deg();
     // A second pass that was ended early has learnt less than the first.
     if (result_.results.size() >= result_.learnt_from) keep_learnt();
+    guarded([this] { give_last_warnings(); });
     guarded([this] {
       for (SessionObserver* observer : observers_) observer->on_end(odometry_);
     });
@@ -196,6 +198,14 @@ class Session::Impl {
       given_.push_back(warning);
       for (SessionObserver* observer : observers_) observer->on_warning(warning);
     }
+  }
+
+  // About the whole run.
+  void give_last_warnings() {
+    const std::string maps = further_maps(result_.results, result_.indices);
+    if (maps.empty()) return;
+    result_.source.warnings.push_back(maps);
+    for (SessionObserver* observer : observers_) observer->on_warning(maps);
   }
 
   std::string nothing_to_run() const {

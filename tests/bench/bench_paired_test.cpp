@@ -35,7 +35,7 @@ BenchCell failed(BenchCell cell) {
   return cell;
 }
 
-// Ours 1, 2 and lost; A 2, 1 and 4; B 4 on the first, lost on the third, not given on the second.
+// Ours 1, 2 and lost; A 2, 1 and 4; B 4 on the first, not to be read on the third, not given on the second.
 std::vector<BenchCell> three_drives() {
   return {paired_cell("p01", "ours", 1, "odd"),
           peer("p01", "A", 2),
@@ -67,10 +67,27 @@ TEST(BenchPaired, EveryPeerAndTheBestOfEachDriveByGroup) {
   EXPECT_EQ(against(all, kBestPeer, "odd").drives, 2U);
   EXPECT_NEAR(against(all, kBestPeer, "even").mean_ratio.value(), 2.0, 1e-12);
   const PairedComparison& b = against(all, "B", "all");
-  EXPECT_EQ(b.drives, 2U);  // given on two
-  EXPECT_THAT(b.lost_by_them, ElementsAre("p03"));
+  EXPECT_EQ(b.drives, 1U);  // what could not be read says nothing
+  EXPECT_TRUE(b.lost_by_them.empty());
   EXPECT_EQ(b.ahead, 1U);
-  EXPECT_EQ(b.behind, 0U);  // both lost the other
+  EXPECT_EQ(b.behind, 0U);
+}
+
+TEST(BenchPaired, ADriveThatBothLostCountsForNeither) {
+  BenchCell lost = peer("a", "B", 0);
+  lost.metrics.evaluation.t_rel_pct.reset();
+  const auto all = bench_comparisons({paired_cell("a", "ours", 40), lost});
+  const PairedComparison& b = against(all, "B", "all");
+  EXPECT_THAT(b.lost_by_them, ElementsAre("a"));
+  EXPECT_EQ(b.ahead, 0U);
+  EXPECT_EQ(b.behind, 0U);
+}
+
+TEST(BenchPaired, APeerThatFailedEverywhereIsComparedNowhere) {
+  const std::vector<BenchCell> cells = {paired_cell("a", "ours", 1), failed(peer("a", "B", 1))};
+  EXPECT_EQ(against(bench_comparisons(cells), "B", "all").drives, 0U);
+  EXPECT_EQ(against(bench_comparisons(cells), kBestPeer, "all").ahead, 0U);
+  EXPECT_THAT(paired_tables(cells).back().note, HasSubstr("\nnot compared with B, which failed: a"));
 }
 
 TEST(BenchPaired, TablesNameWhatIsLost) {
@@ -81,7 +98,7 @@ TEST(BenchPaired, TablesNameWhatIsLost) {
   EXPECT_THAT(tables[1].table.rows[0],
               ElementsAre("ours", "best peer", "all", "3", "1.000", "2.154", "10.00", "p03", "1", "2", "1", "1", "0"));
   EXPECT_THAT(tables[1].note, HasSubstr("\nlost by ours: p03"));
-  EXPECT_THAT(tables[1].note, HasSubstr("\nlost by B: p03"));
+  EXPECT_THAT(tables[1].note, HasSubstr("\nnot compared with B, which failed: p03"));
   EXPECT_TRUE(paired_tables({paired_cell("a", "ours", 1)}).empty());
   EXPECT_TRUE(paired_csv({paired_cell("a", "ours", 1)}).rows.empty());
   const TextTable csv = paired_csv(three_drives());
@@ -102,11 +119,13 @@ TEST(PeerFigures, AreReadByTheNamesOfTheColumns) {
   EXPECT_EQ(value_of(cells[0], bench_figure("ms_mean")), 20.0);
   EXPECT_FALSE(value_of(cells[1], bench_figure("t_rel_pct")));
   std::vector<StoredCell> stored = {{peer("a", "K", 3), "", 1, ""}};
-  add_peer_figures(cells, "a", stored);
+  add_peer_figures(cells, "a", true, stored);
   ASSERT_EQ(stored.size(), 1U);  // its poses count; the times are added
   EXPECT_EQ(value_of(stored[0].cell, bench_figure("t_rel_pct")), 3.0);
   EXPECT_EQ(value_of(stored[0].cell, bench_figure("ms_mean")), 20.0);
-  add_peer_figures(cells, "b", stored);
+  add_peer_figures(cells, "b", false, stored);
+  ASSERT_EQ(stored.size(), 1U);  // figures of whole drives, but a part was run
+  add_peer_figures(cells, "b", true, stored);
   ASSERT_EQ(stored.size(), 2U);
   EXPECT_EQ(stored[1].cell.configuration, "K");
 }

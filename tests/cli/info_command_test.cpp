@@ -46,6 +46,9 @@ TEST(InfoCommand, SaysWhetherPointsAreRaw) {
   expect_parts(rilo_succeeds({"info", folder / "compensated"}).out,
                {"compensated already", "--out results --point-times none\n"});
   EXPECT_EQ(rilo_succeeds({"info", folder / "raw", "--point-times", "none"}).out.find("motion  "), std::string::npos);
+  // Intensities taken for times.
+  expect_parts(rilo_succeeds({"info", folder / "raw" / "velodyne", "--bin-fields", "x,y,z,time"}).out,
+               {"these times do not fit", "these are the sweeps of"});
   // Without times, what the run does is clear, too, and there is nothing to choose from.
   for (const char* name : {"raw", "compensated"}) {
     std::filesystem::remove_all(folder / name / "times_pt");

@@ -131,7 +131,12 @@ TEST(QualityCommand, StartAndCountAsOfARun) {
   EXPECT_EQ(from_two["sweeps"], kDriveSweeps - 2);
   EXPECT_NEAR(rms(from_two), rms(quality(shared_drive(), true_poses())), 0.005);
   EXPECT_EQ(quality(shared_drive(), true_poses(), {"--count", "11"})["sweeps"], 11);
-  EXPECT_EQ(quality(shared_drive(), folder.write("from1.txt", true_poses_from(1)))["sweeps"], kDriveSweeps - 1);
+  EXPECT_EQ(from_two["warnings"].size(), 0U);
+  const json one_short = quality(shared_drive(), folder.write("from1.txt", true_poses_from(1)));
+  EXPECT_EQ(one_short["sweeps"], kDriveSweeps - 1);
+  EXPECT_NE(one_short["protocol"].get<std::string>().find("11 poses, for 11 of 12 sweeps"), std::string::npos);
+  ASSERT_EQ(one_short["warnings"].size(), 1U);
+  EXPECT_NE(one_short["warnings"][0].get<std::string>().find("from1.txt: 11 poses for 12 sweeps"), std::string::npos);
   rilo_fails(3, arguments(shared_drive(), true_poses(), {"--count", "9"}), {"9 sweeps", "window of 10"});
   rilo_fails(3, arguments(shared_drive(), true_poses(), {"--start", "100"}), {"0 sweeps"});
 }

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "io/io_test_util.hpp"
 #include "rilo/config/config_file.hpp"
 
 namespace rilo {
@@ -168,6 +169,21 @@ TEST(Overrides, the_last_one_wins_and_mistakes_name_the_option) {
   EXPECT_THAT(override_message({"icp.gat=3"}), HasSubstr("Did you mean icp.gate?"));
   EXPECT_THAT(override_message({"icp.gate="}), HasSubstr("icp.gate"));
   EXPECT_THAT(override_message({"icp.gate=nan"}), HasSubstr("a number from 0.1 to 100"));
+}
+
+TEST(Overrides, may_put_right_what_a_file_alone_contradicts) {
+  const test::TempDir folder;
+  const auto far = folder.write("far.yaml", "preprocess: {min_range_m: 150}\n");
+  EXPECT_EQ(load_config(far, {"preprocess.max_range_m=200"}).preprocess.max_range_m, 200.0);
+  EXPECT_EQ(load_config("", {"threads=3"}).threads, 3);
+  try {
+    load_config(far, {"threads=3"});
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(),
+                AllOf(HasSubstr("far.yaml, line 1, column 14"), HasSubstr("preprocess.max_range_m is 100"),
+                      HasSubstr("preprocess.min_range_m, 150")));
+  }
 }
 
 TEST(LoadConfig, a_file_that_is_missing_or_a_folder_is_refused_by_name) {

@@ -85,7 +85,7 @@ TEST(OdometryConfig, ValuesThatDependOnOneAnother) {
   config.preprocess.min_range_m = 10;
   config.preprocess.max_range_m = 5;
   EXPECT_EQ(message_of(config),
-            "configuration: preprocess.max_range_m is 5, expected at least that of preprocess.min_range_m");
+            "configuration: preprocess.max_range_m is 5, expected at least that of preprocess.min_range_m, 10");
   config = {};
   config.map.min_points = 10;
   config.map.max_points = 9;

@@ -253,14 +253,5 @@ TEST(Metrics, FlakesAreNamedWhereThereWereSome) {
   EXPECT_THAT(run_summary(metrics), HasSubstr("\nflakes          75 % of the returns dropped, in 2 sweeps"));
 }
 
-TEST(Metrics, TheSummaryExplainsMapsThatBeginAgainAndAgain) {
-  RunMetrics metrics;
-  metrics.frames = 10;
-  for (const std::size_t begun : {std::size_t{1}, std::size_t{5}, std::size_t{6}}) {
-    metrics.status = {{"initialising", begun}, {"ok", 10 - begun}};
-    EXPECT_EQ(run_summary(metrics).find("map after map begins") != std::string::npos, begun == 6) << begun;
-  }
-}
-
 }  // namespace
 }  // namespace rilo

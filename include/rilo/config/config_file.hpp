@@ -25,6 +25,11 @@ OdometryConfig load_config(const std::filesystem::path& file, const OdometryConf
 /// The same from text; `name` is the file's name in messages.
 OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base = {});
 
+/// The same with overrides as with_overrides takes them; `file` empty: the overrides alone. Values that contradict each
+/// other are found at the end.
+OdometryConfig load_config(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                           const std::string& origin = "--set");
+
 /// Applies "key=value" in turn, e.g. "icp.max_iterations=20"; values that contradict each other are found at the end.
 /// `origin` names in messages where they come from.
 /// @throws ConfigError

@@ -126,11 +126,7 @@ ScanListing list_mulran(const fs::path& folder, const fs::path& sweeps, const So
   return listing;
 }
 
-ScanListing list_plain_folder(const fs::path& folder, const SourceOptions& options) {
-  ScanListing listing = listing_of("folder", folder, find_sweep_files(folder));
-  set_stamps(listing, find_stamps(folder, true, listing), options);
-  return listing;
-}
+ScanListing list_plain_folder(const fs::path& folder, const SourceOptions& options);
 
 struct Layout {
   const char* sweeps;  // where they lie: what the layout is recognised by
@@ -145,6 +141,32 @@ const Layout* layout_of(const fs::path& folder) {
     if (is_folder(folder / layout.sweeps)) return &layout;
   }
   return nullptr;
+}
+
+/// The data set whose sweeps `folder` holds, if more of it lies there. Empty: none.
+fs::path data_set_around(const fs::path& folder) {
+  std::error_code error;
+  const fs::path whole = fs::canonical(folder, error);
+  for (const Layout& layout : kLayouts) {
+    fs::path above = whole;
+    for (const auto& part : fs::path(layout.sweeps)) above = part.empty() ? above : above.parent_path();
+    if (error || above / layout.sweeps != whole) continue;
+    for (const char* more : {"calib.txt", "poses.txt", "times_pt", "oxts"}) {
+      if (path_exists(above / more)) return above;
+    }
+  }
+  return {};
+}
+
+ScanListing list_plain_folder(const fs::path& folder, const SourceOptions& options) {
+  ScanListing listing = listing_of("folder", folder, find_sweep_files(folder));
+  set_stamps(listing, find_stamps(folder, true, listing), options);
+  const fs::path data_set = data_set_around(folder);
+  if (!data_set.empty()) {
+    listing.info.warnings.push_back("these are the sweeps of " + data_set.string() +
+                                    ": give that folder, so that its point times, calibration and ground truth count");
+  }
+  return listing;
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+#include "session/map_beginnings.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace rilo {
+
+namespace {
+
+std::string why(const std::vector<SweepResult>& results, std::size_t begun) {
+  if (2 * begun <= results.size()) return "";
+  const auto late =
+      std::count_if(results.begin(), results.end(), [](const SweepResult& r) { return r.stats.over_budget; });
+  return 2 * static_cast<std::size_t>(late) > results.size()
+             ? "; most sweeps take longer than budget.sweep_ms, which is too little here"
+             : "; neighbouring sweeps do not fit: rilo info describes the sweeps";
+}
+
+}  // namespace
+
+std::string further_maps(const std::vector<SweepResult>& results, const std::vector<std::size_t>& indices) {
+  std::vector<std::size_t> begun;
+  bool any = false;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (results[i].status != OdometryStatus::kInitialising) continue;
+    if (any) begun.push_back(indices[i]);
+    any = true;
+  }
+  if (begun.empty()) return "";
+  const std::string where = begun.size() == 1 ? fmt::format("a new map begins at sweep {}", begun.front())
+                                              : fmt::format("{} new maps begin, at sweeps {} to {}", begun.size(),
+                                                            begun.front(), begun.back());
+  return where + ": the poses before and after are connected by a guess" + why(results, begun.size() + 1);
+}
+
+}  // namespace rilo

@@ -1,0 +1,16 @@
+// Where a run had to begin its map again.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "rilo/odometry/sweep_result.hpp"
+
+namespace rilo {
+
+/// A sentence about the maps that begin after the first one, with the places of their first sweeps in the data:
+/// `indices`, one per result. Empty: none does. Poses on both sides of such a sweep are connected by a guess.
+std::string further_maps(const std::vector<SweepResult>& results, const std::vector<std::size_t>& indices);
+
+}  // namespace rilo

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <pcap/pcap.h>
 #include <sys/stat.h>
@@ -10,6 +11,7 @@
 
 #include "io/file_bytes.hpp"
 #include "io/raw_bytes.hpp"
+#include "io/stamp_difference.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
 
@@ -117,8 +119,9 @@ std::optional<Datagram> UdpReader::next() {
       ++cut_packets_;
       continue;
     }
+    received_ns_ = stamp_ns(header->ts.tv_sec, header->ts.tv_usec);  // nanoseconds, as asked for above
     if (auto datagram = from_ip(*packet)) {
-      datagram->received_ns = stamp_ns(header->ts.tv_sec, header->ts.tv_usec);  // nanoseconds, as asked for above
+      datagram->received_ns = received_ns_;
       return datagram;
     }
   }
@@ -142,6 +145,13 @@ std::optional<Datagram> UdpReader::from_ip(std::string_view packet) {
   return whole ? from_udp(*whole) : std::nullopt;
 }
 
+// A part of the datagram was lost, and soon another one has the same number.
+void UdpReader::forget_old_fragments() {
+  std::erase_if(fragments_, [&](const Fragments& open) {
+    return std::abs(stamp_difference(received_ns_, open.begun_ns)) > kNanosecondsPerSecond;
+  });
+}
+
 // Some datagrams at a time: an Ouster's are larger than what Ethernet carries.
 std::optional<std::string_view> UdpReader::put_together(std::string_view packet, std::size_t header, std::size_t offset,
                                                         bool more) {
@@ -149,16 +159,23 @@ std::optional<std::string_view> UdpReader::put_together(std::string_view packet,
   constexpr std::size_t kLargest = 65535;
   const auto addresses = load_bytes<std::uint64_t>(packet, 12);
   const auto number = load_bytes<std::uint16_t>(packet, 4);
+  const Fragments none{addresses, number, received_ns_, {}, {}, 0, {}};
+  forget_old_fragments();
   auto open = std::find_if(fragments_.begin(), fragments_.end(), [&](const Fragments& candidate) {
     return candidate.addresses == addresses && candidate.number == number;
   });
   if (open == fragments_.end()) {
     if (fragments_.size() == kMostOpen) fragments_.pop_front();
-    fragments_.push_back({addresses, number, {}, 0, {}});
+    fragments_.push_back(none);
     open = std::prev(fragments_.end());
   }
   const std::string_view part = packet.substr(header);
   if (offset + part.size() > kLargest) return std::nullopt;
+  if (std::find(open->offsets.begin(), open->offsets.end(), offset) != open->offsets.end()) {
+    if (std::string_view(open->bytes).substr(offset).starts_with(part)) return std::nullopt;  // it comes twice
+    *open = none;  // of a later datagram: the sender gives one number to all
+  }
+  open->offsets.push_back(offset);
   if (open->bytes.size() < offset + part.size()) open->bytes.resize(offset + part.size());
   std::copy(part.begin(), part.end(), open->bytes.begin() + static_cast<std::ptrdiff_t>(offset));
   open->received += part.size();

@@ -38,6 +38,8 @@ class UdpReader final : public PacketStream {
   struct Fragments {
     std::uint64_t addresses = 0;  // of the sender and the receiver
     std::uint16_t number = 0;     // of the datagram
+    std::int64_t begun_ns = 0;    // when its first part came
+    std::vector<std::size_t> offsets;
     std::string bytes;
     std::size_t received = 0;
     std::optional<std::size_t> total;
@@ -50,6 +52,7 @@ class UdpReader final : public PacketStream {
   std::optional<Datagram> from_ip(std::string_view packet);
   std::optional<std::string_view> put_together(std::string_view packet, std::size_t header, std::size_t offset,
                                                bool more);
+  void forget_old_fragments();
   static std::optional<Datagram> from_udp(std::string_view udp);
 
   std::filesystem::path file_;
@@ -57,6 +60,7 @@ class UdpReader final : public PacketStream {
   int link_ = 0;
   std::int64_t bytes_when_opened_ = 0;
   bool shortened_ = false;
+  std::int64_t received_ns_ = 0;  // when the present packet came
   std::deque<Fragments> fragments_;
   std::string whole_;  // the datagram put together last
   std::size_t cut_packets_ = 0;

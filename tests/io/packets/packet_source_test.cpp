@@ -66,6 +66,48 @@ TEST(UdpReaderTest, FragmentsAreThoseOfOneSenderAndNumber) {
   EXPECT_EQ(datagrams(folder, Capture(101).frame(kStamp, last).frame(kStamp, first).text()), 1U);
 }
 
+// A datagram in two fragments, of which the first has the header alone.
+struct TwoFragments {
+  explicit TwoFragments(std::string_view text = "hello") {
+    const auto length = static_cast<std::uint16_t>(8 + text.size());
+    const std::string udp = Capture::big(1) + Capture::big(77) + Capture::big(length) + Capture::big(0);
+    first = Capture().ipv4(udp, 0, true);
+    last = Capture().ipv4(text, 8, false);
+  }
+  std::string first;
+  std::string last;
+};
+
+// Senders number their datagrams with 16 bits, which come again.
+TEST(UdpReaderTest, FragmentsOfALostDatagramAreForgotten) {
+  const TempDir folder;
+  constexpr std::int64_t kStamp = 1'000'000'007;
+  constexpr std::int64_t kLong = 1'100'000'000;
+  const TwoFragments now;
+  const TwoFragments before("HELLO");
+  Capture late(101);
+  late.frame(kStamp - kLong, before.last).frame(kStamp, now.first).frame(kStamp, now.last);
+  EXPECT_EQ(datagrams(folder, late.text()), 1U);
+  // A clock that is set back does not keep them, either.
+  Capture back(101);
+  back.frame(kStamp + kLong, before.last).frame(kStamp, now.first).frame(kStamp, now.last);
+  EXPECT_EQ(datagrams(folder, back.text()), 1U);
+}
+
+TEST(UdpReaderTest, AFragmentThatComesTwiceCountsOnce) {
+  const TempDir folder;
+  constexpr std::int64_t kStamp = 1'000'000'007;
+  const TwoFragments now;
+  const TwoFragments before("HELLO");
+  Capture twice(101);
+  twice.frame(kStamp, now.last).frame(kStamp, now.last).frame(kStamp, now.last).frame(kStamp, now.first);
+  EXPECT_EQ(datagrams(folder, twice.text()), 1U);
+  // Other bytes in the same place are of another datagram, of a sender that gives all the same number.
+  Capture same_number(101);
+  same_number.frame(kStamp, before.last).frame(kStamp, before.last).frame(kStamp, now.last).frame(kStamp, now.first);
+  EXPECT_EQ(datagrams(folder, same_number.text()), 1U);
+}
+
 TEST(UdpReaderTest, LengthsAreThoseOfTheHeaders) {
   const TempDir folder;
   constexpr std::int64_t kStamp = 1'000'000'007;

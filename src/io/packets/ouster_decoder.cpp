@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/packets/ouster.hpp"
+#include "io/packets/packet_order.hpp"
 #include "io/raw_bytes.hpp"
 
 namespace rilo::detail {
@@ -36,7 +37,8 @@ class OusterDecoder final : public PacketDecoder {
       : metadata_(std::move(metadata)),
         layout_(ouster_layout(metadata_.profile)),
         packet_bytes_(ouster_packet_bytes(metadata_)),
-        clock_(0) {}
+        clock_(0),
+        order_(0) {}
 
   std::string description() const override {
     const std::string product = metadata_.product.empty() ? "" : " " + metadata_.product;
@@ -44,6 +46,7 @@ class OusterDecoder final : public PacketDecoder {
     return "Ouster" + product + ", " + to_string(metadata_.profile) + (dual ? ", the first of two returns" : "");
   }
   std::size_t clock_resets() const override { return clock_.resets(); }
+  std::size_t dropped_packets() const override { return order_.dropped(); }
   bool accepts(std::string_view payload) const override {
     return payload.size() == packet_bytes_ && !contradict(identity_of(payload).serial, metadata_.identity.serial);
   }
@@ -52,6 +55,7 @@ class OusterDecoder final : public PacketDecoder {
     const std::size_t column_bytes = layout_.column_bytes(metadata_.pixels());
     if (const auto start = identity_of(payload).start; contradict(start, metadata_.identity.start))
       other_start_ = start;
+    std::optional<PacketOrder::Arrival> arrival;  // by the first valid column: others have no time
     for (std::size_t i = 0; i < metadata_.columns_per_packet; ++i) {
       const std::string_view column = payload.substr(layout_.packet_header + i * column_bytes, column_bytes);
       const bool legacy = metadata_.profile == OusterProfile::kLegacy;
@@ -59,9 +63,11 @@ class OusterDecoder final : public PacketDecoder {
       const bool valid = legacy ? load_bytes<std::uint32_t>(column, column_bytes - 4) == 0xFFFFFFFF
                                 : (load_bytes<std::uint16_t>(column, 10) & 1) != 0;
       if (!valid) continue;
-      begin_frame(frame, done);
       const std::int64_t sensor_ns =
           static_cast<std::int64_t>(load_bytes<std::uint64_t>(column, 0) & (~std::uint64_t{0} >> 1));
+      if (!arrival) arrival = order_.arrival(sensor_ns, load_bytes<std::uint16_t>(column, 8));
+      if (*arrival == PacketOrder::Arrival::kDropped) return;
+      if (*arrival == PacketOrder::Arrival::kNext) begin_frame(frame, done);
       add_column(column, clock_.stamp_ns(sensor_ns, received_ns));
     }
   }
@@ -86,6 +92,7 @@ class OusterDecoder final : public PacketDecoder {
     // Nothing has more columns than a frame: a counter that does not advance must not gather the whole recording.
     if (frame_ && *frame_ == frame && columns_ < metadata_.columns_per_frame) return;
     end_frame(done);
+    order_.begin_sweep();
     frame_ = frame;
   }
 
@@ -125,6 +132,7 @@ class OusterDecoder final : public PacketDecoder {
   OusterLayout layout_;
   std::size_t packet_bytes_;
   PacketClock clock_;
+  PacketOrder order_;
   GrowingSweep sweep_;
   std::optional<std::uint16_t> frame_;
   std::size_t columns_ = 0;        // of the frame so far

@@ -66,6 +66,8 @@ class PacketDecoder {
   /// The last sweep.
   virtual void finish(std::deque<DecodedSweep>& done) = 0;
   virtual std::size_t clock_resets() const = 0;
+  /// Packets that came twice or too late for their sweep.
+  virtual std::size_t dropped_packets() const = 0;
   /// Sentences for the user.
   virtual std::vector<std::string> warnings() const { return {}; }
 

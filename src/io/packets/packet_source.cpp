@@ -152,6 +152,10 @@ class PacketSource final : public ScanSource {
     if (unusable_ > 0) {
       info.warnings.push_back("dropped " + counted(unusable_, "packet") + " of another size or kind than the LiDAR's");
     }
+    if (decoder_->dropped_packets() > 0) {
+      info.warnings.push_back("dropped " + counted(decoder_->dropped_packets(), "packet") +
+                              " that came twice or too late for their sweep");
+    }
     if (info.bad_sweeps > 0) {
       info.warnings.push_back("dropped " + counted(info.bad_sweeps, "message") + " that could not be read");
     }

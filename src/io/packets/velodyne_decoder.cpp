@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "io/packets/packet_order.hpp"
 #include "io/packets/velodyne.hpp"
 #include "io/raw_bytes.hpp"
 
@@ -17,12 +18,13 @@ constexpr unsigned char kDual = 0x39;
 
 class VelodyneDecoder final : public PacketDecoder {
  public:
-  explicit VelodyneDecoder(VelodyneModel model) : model_(std::move(model)), clock_(kHourNs) {}
+  explicit VelodyneDecoder(VelodyneModel model) : model_(std::move(model)), clock_(kHourNs), order_(kHourNs) {}
 
   std::string description() const override {
     return "Velodyne " + model_.name + (dual_ ? ", of two returns the last" : "");
   }
   std::size_t clock_resets() const override { return clock_.resets(); }
+  std::size_t dropped_packets() const override { return order_.dropped(); }
 
   bool accepts(std::string_view payload) const override {
     if (payload.size() != kVelodynePacket) return false;
@@ -31,8 +33,10 @@ class VelodyneDecoder final : public PacketDecoder {
   }
 
   void take(std::string_view payload, std::int64_t received_ns, std::deque<DecodedSweep>& done) override {
-    const auto hour_us = load_bytes<std::uint32_t>(payload, kBlocks * kBlockBytes);
-    const std::int64_t stamp_ns = clock_.stamp_ns(std::int64_t{hour_us} * 1000, received_ns);
+    const std::int64_t hour_ns = std::int64_t{load_bytes<std::uint32_t>(payload, kBlocks * kBlockBytes)} * 1000;
+    const auto arrival = order_.arrival(hour_ns, load_bytes<std::uint16_t>(payload, 2));
+    if (arrival == PacketOrder::Arrival::kDropped) return;
+    const std::int64_t stamp_ns = clock_.stamp_ns(hour_ns, received_ns);
     dual_ = !model_.two_banks && static_cast<unsigned char>(payload[kVelodynePacket - 2]) == kDual;
     const std::size_t group = dual_ || model_.two_banks ? 2 : 1;  // blocks of the same firing
     for (std::size_t block = 0; block < kBlocks; ++block) {
@@ -44,7 +48,8 @@ class VelodyneDecoder final : public PacketDecoder {
       const std::size_t firings_before = block / group * model_.firings_a_block;
       const int azimuth = load_bytes<std::uint16_t>(bytes, 2) % kTurn;
       find_rate(payload, block, group, azimuth);
-      look_for_the_rear(azimuth, done);
+      // To go back across the rear and over it again is no revolution.
+      if (arrival == PacketOrder::Arrival::kNext) look_for_the_rear(azimuth, done);
       add_block(bytes, flag == "\xFF\xDD", azimuth, stamp_ns, static_cast<double>(firings_before));
     }
   }
@@ -76,6 +81,7 @@ class VelodyneDecoder final : public PacketDecoder {
     if (at_rear || sweep_.size() > kMostPoints) {
       if (!sweep_.empty()) done.push_back({sweep_.take(), whole_ && at_rear});
       whole_ = at_rear;
+      order_.begin_sweep();
     }
     last_since_rear_ = since_rear;
   }
@@ -109,6 +115,7 @@ class VelodyneDecoder final : public PacketDecoder {
 
   VelodyneModel model_;
   PacketClock clock_;
+  PacketOrder order_;
   GrowingSweep sweep_;
   double rate_ = 0;
   int last_since_rear_ = -1;

@@ -101,7 +101,9 @@ TEST(VelodyneDecoderTest, ARevolutionIsWholeFromStraightBehindOn) {
   EXPECT_FALSE(first_is_whole(9000));
   // An angle that goes back a little ends none, and a motor that does not run has none.
   EXPECT_EQ(revolutions_in({velodyne_packet(9000, 0, 0, 0x21), velodyne_packet(8990, 0, 0, 0x21)}).size(), 1U);
-  const auto stuck = revolutions_in(std::vector<std::string>(2800, velodyne_packet(18000, 0, 0, 0x21)));
+  std::vector<std::string> same_angle;
+  for (std::uint32_t i = 0; i < 2800; ++i) same_angle.push_back(velodyne_packet(18000, 0, i * 553, 0x21));
+  const auto stuck = revolutions_in(same_angle);
   ASSERT_EQ(stuck.size(), 2U);
   EXPECT_FALSE(stuck[0].whole);
 }

@@ -51,6 +51,10 @@ class OusterDecoder final : public PacketDecoder {
     return payload.size() == packet_bytes_ && !contradict(identity_of(payload).serial, metadata_.identity.serial);
   }
 
+  bool is_of_another(std::string_view payload) const override {
+    return payload.size() == packet_bytes_ && !accepts(payload);
+  }
+
   void take(std::string_view payload, std::int64_t received_ns, std::deque<DecodedSweep>& done) override {
     const std::size_t column_bytes = layout_.column_bytes(metadata_.pixels());
     if (const auto start = identity_of(payload).start; contradict(start, metadata_.identity.start))

@@ -61,6 +61,8 @@ class PacketDecoder {
 
   /// Whether a payload may be one of the sensor's LiDAR packets.
   virtual bool accepts(std::string_view payload) const = 0;
+  /// Whether it is a LiDAR packet of the same kind, but says that it is another sensor's.
+  virtual bool is_of_another(std::string_view payload) const = 0;
   /// Takes a packet that it accepts; sweeps that are done with it are appended.
   virtual void take(std::string_view payload, std::int64_t received_ns, std::deque<DecodedSweep>& done) = 0;
   /// The last sweep.

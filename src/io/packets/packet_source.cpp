@@ -6,6 +6,7 @@
 
 #include "io/bad_sweeps.hpp"
 #include "io/packets/find_decoder.hpp"
+#include "io/packets/one_sensor.hpp"
 #include "io/packets/udp_reader.hpp"
 #include "io/text.hpp"
 #include "io/times/sweep_period.hpp"
@@ -122,7 +123,9 @@ class PacketSource final : public ScanSource {
 
   void take(const Datagram& datagram) {
     if (decoder_->accepts(datagram.payload)) {
-      decoder_->take(datagram.payload, datagram.received_ns, ready_);
+      if (sensor_.takes(datagram)) decoder_->take(datagram.payload, datagram.received_ns, ready_);
+    } else if (decoder_->is_of_another(datagram.payload)) {
+      sensor_.leave_out(datagram);
     } else if (!stream_->is_mixed()) {
       ++unusable_;
     }
@@ -152,6 +155,7 @@ class PacketSource final : public ScanSource {
     if (unusable_ > 0) {
       info.warnings.push_back("dropped " + counted(unusable_, "packet") + " of another size or kind than the LiDAR's");
     }
+    for (std::string& warning : sensor_.warnings()) info.warnings.push_back(std::move(warning));
     if (decoder_->dropped_packets() > 0) {
       info.warnings.push_back("dropped " + counted(decoder_->dropped_packets(), "packet") +
                               " that came twice or too late for their sweep");
@@ -168,6 +172,7 @@ class PacketSource final : public ScanSource {
   std::unique_ptr<PacketStream> stream_;
   SourceOptions options_;
   std::unique_ptr<PacketDecoder> decoder_;
+  OneSensor sensor_;
   SourceInfo info_;
   std::deque<DecodedSweep> ready_;
   std::optional<IoError> error_;  // of a message behind the sweeps that are ready

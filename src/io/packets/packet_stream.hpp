@@ -13,6 +13,7 @@ struct Datagram {
   std::int64_t received_ns = 0;
   std::uint16_t port = 0;    ///< destination; 0: unknown
   std::string_view payload;  ///< valid until the next call
+  std::string_view sender;   ///< its address, 4 or 16 bytes, valid as long; empty: unknown
 };
 
 class PacketStream {

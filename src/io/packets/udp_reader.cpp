@@ -131,18 +131,21 @@ std::optional<Datagram> UdpReader::next() {
 std::optional<Datagram> UdpReader::from_ip(std::string_view packet) {
   constexpr std::size_t kIpv6Header = 40;
   const int version = packet.empty() ? 0 : static_cast<unsigned char>(packet[0]) >> 4;
-  if (version == 6 && packet.size() > kIpv6Header && packet[6] == kUdp) return from_udp(packet.substr(kIpv6Header));
+  if (version == 6 && packet.size() > kIpv6Header && packet[6] == kUdp) {
+    return from_udp(packet.substr(kIpv6Header), packet.substr(8, 16));
+  }
   if (version != 4 || packet.size() < 20 || packet[9] != kUdp) return std::nullopt;
   const std::size_t header = 4 * (static_cast<unsigned char>(packet[0]) & 15U);
   const std::size_t total = big_endian16(packet, 2);
   if (header < 20 || total < header || total > packet.size()) return std::nullopt;
   packet = packet.substr(0, total);
+  const std::string_view sender = packet.substr(12, 4);
   const std::uint16_t flags = big_endian16(packet, 6);
   const bool more = (flags & 0x2000) != 0;
   const std::size_t offset = std::size_t{8} * (flags & 0x1FFF);
-  if (!more && offset == 0) return from_udp(packet.substr(header));
+  if (!more && offset == 0) return from_udp(packet.substr(header), sender);
   const auto whole = put_together(packet, header, offset, more);
-  return whole ? from_udp(*whole) : std::nullopt;
+  return whole ? from_udp(*whole, sender) : std::nullopt;
 }
 
 // A part of the datagram was lost, and soon another one has the same number.
@@ -187,12 +190,12 @@ std::optional<std::string_view> UdpReader::put_together(std::string_view packet,
   return whole_;
 }
 
-std::optional<Datagram> UdpReader::from_udp(std::string_view udp) {
+std::optional<Datagram> UdpReader::from_udp(std::string_view udp, std::string_view sender) {
   constexpr std::size_t kHeader = 8;
   if (udp.size() < kHeader) return std::nullopt;
   const std::size_t length = big_endian16(udp, 4);
   if (length < kHeader || length > udp.size()) return std::nullopt;
-  return Datagram{0, big_endian16(udp, 2), udp.substr(kHeader, length - kHeader)};
+  return Datagram{0, big_endian16(udp, 2), udp.substr(kHeader, length - kHeader), sender};
 }
 
 std::vector<std::string> UdpReader::warnings() const {

@@ -53,7 +53,7 @@ class UdpReader final : public PacketStream {
   std::optional<std::string_view> put_together(std::string_view packet, std::size_t header, std::size_t offset,
                                                bool more);
   void forget_old_fragments();
-  static std::optional<Datagram> from_udp(std::string_view udp);
+  static std::optional<Datagram> from_udp(std::string_view udp, std::string_view sender);
 
   std::filesystem::path file_;
   std::unique_ptr<pcap, Close> capture_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,7 @@ struct VelodyneLaser {
 
 struct VelodyneModel {
   std::string name;
+  std::optional<std::uint8_t> product;  ///< the last byte of its packets; HDL-64E have others there
   double unit_m = 0.002;
   double firing_us = 0;             ///< from one firing to the next
   std::size_t firings_a_block = 1;  ///< 2 for sensors of 16 lasers

@@ -26,11 +26,8 @@ class VelodyneDecoder final : public PacketDecoder {
   std::size_t clock_resets() const override { return clock_.resets(); }
   std::size_t dropped_packets() const override { return order_.dropped(); }
 
-  bool accepts(std::string_view payload) const override {
-    if (payload.size() != kVelodynePacket) return false;
-    const std::string_view flag = payload.substr(0, 2);
-    return flag == "\xFF\xEE" || (model_.two_banks && flag == "\xFF\xDD");
-  }
+  bool accepts(std::string_view payload) const override { return is_lidar(payload) && has_product(payload); }
+  bool is_of_another(std::string_view payload) const override { return is_lidar(payload) && !has_product(payload); }
 
   void take(std::string_view payload, std::int64_t received_ns, std::deque<DecodedSweep>& done) override {
     const std::int64_t hour_ns = std::int64_t{load_bytes<std::uint32_t>(payload, kBlocks * kBlockBytes)} * 1000;
@@ -60,6 +57,15 @@ class VelodyneDecoder final : public PacketDecoder {
 
  private:
   static constexpr std::int64_t kHourNs = 3'600'000'000'000;
+
+  bool is_lidar(std::string_view payload) const {
+    if (payload.size() != kVelodynePacket) return false;
+    const std::string_view flag = payload.substr(0, 2);
+    return flag == "\xFF\xEE" || (model_.two_banks && flag == "\xFF\xDD");
+  }
+  bool has_product(std::string_view payload) const {
+    return !model_.product || *model_.product == static_cast<unsigned char>(payload.back());
+  }
 
   // Hundredths of a degree a microsecond, from this block to the next.
   void find_rate(std::string_view payload, std::size_t block, std::size_t group, int azimuth) {

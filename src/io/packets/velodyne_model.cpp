@@ -110,6 +110,7 @@ VelodyneModel velodyne_model(std::string_view packet, const std::filesystem::pat
                      "0x21 (HDL-32E), 0x22 (VLP-16), 0x24 (Puck Hi-Res), 0x28 (VLP-32C) or an HDL-64E's two banks",
                      "Decode the packets with Velodyne's driver and record the point clouds"});
   }
+  model.product = product;
   if (!calibration.empty()) read_velodyne_calibration(calibration, model);
   return model;
 }

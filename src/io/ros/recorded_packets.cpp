@@ -64,7 +64,7 @@ class RecordedPackets final : public PacketStream {
       unpack(*message);
     }
     const RecordedPacket& packet = packets_[next_packet_++];
-    return Datagram{packet.received_ns, 0, packet.data};
+    return Datagram{packet.received_ns, 0, packet.data, {}};
   }
 
   std::string format() const override { return recording_->format(); }

@@ -124,8 +124,10 @@ TEST(OusterTest, PacketsOfAnotherSensorAreNotMixedIn) {
     }
   }
   folder.write("o.json", ouster_metadata(shape, kThis));
-  const auto sweeps = sweeps_of(*open_scan_source(folder.write("o.pcap", both.text())));
+  const auto source = open_scan_source(folder.write("o.pcap", both.text()));
+  const auto sweeps = sweeps_of(*source);
   ASSERT_EQ(sweeps.size(), 2U);
+  EXPECT_TRUE(has_warning(source->info(), "dropped 130 packets of another sensor, from 10.0.0.1 to port 7502"));
   EXPECT_EQ(sweeps[0].points.size(), 1024U * 3);
 }
 

@@ -32,6 +32,12 @@ class Capture {
     return *this;
   }
 
+  /// The last byte of the address that datagrams come from.
+  Capture& from(char sender) {
+    sender_ = sender;
+    return *this;
+  }
+
   /// A datagram in one Ethernet frame, or in fragments of at most `mtu` bytes.
   Capture& udp(std::int64_t stamp_ns, std::uint16_t port, std::string_view payload, std::size_t mtu = 65000) {
     std::string datagram = big(2000) + big(port) + big(static_cast<std::uint16_t>(payload.size() + 8)) + big(0);
@@ -51,7 +57,8 @@ class Capture {
     std::string header("\x45\0", 2);
     header += big(static_cast<std::uint16_t>(20 + part.size())) + big(identification_);
     header += big(static_cast<std::uint16_t>(offset / 8 + (more ? 0x2000 : 0)));
-    return header + std::string("\x40\x11\0\0\x0A\0\0\1\x0A\0\0\2", 12) + std::string(part);
+    header += std::string("\x40\x11\0\0\x0A\0\0", 7) + sender_ + std::string("\x0A\0\0\2", 4);
+    return header + std::string(part);
   }
   static std::string ethernet(const std::string& packet, const std::string& vlan = "") {
     return std::string(12, '\x11') + vlan + std::string("\x08\0", 2) + packet;
@@ -62,6 +69,7 @@ class Capture {
  private:
   Bytes bytes_;
   std::uint16_t identification_ = 0;
+  char sender_ = 1;
 };
 
 /// A packet of a Velodyne with 12 blocks from `azimuth` (0.01°) on in steps of `step`, all distances the same.

@@ -39,18 +39,18 @@ std::vector<std::int64_t> read_lines(const std::filesystem::path& file, Parse&& 
 
 // "2011-09-26 13:02:25.951199337", taken as UTC, in ns since 1970.
 std::optional<std::int64_t> parse_date(std::string_view text) {
-  constexpr std::size_t kToSeconds = 17;  // "2011-09-26 13:02:"
+  int to_seconds = 0;  // characters; "2011-9-26 9:02:" has fewer than "2011-09-26 09:02:"
   int year = 0;
   unsigned month = 0;
   unsigned day = 0;
   std::int64_t hour = 0;
   std::int64_t minute = 0;
-  const std::string start(text.substr(0, kToSeconds));
-  const int read = std::sscanf(start.c_str(), "%4d-%2u-%2u %2ld:%2ld:", &year, &month, &day, &hour,  // NOLINT
-                               &minute);
-  if (read != 5 || text.size() <= kToSeconds) return std::nullopt;
+  const std::string line(text);
+  const int read = std::sscanf(line.c_str(), "%4d-%2u-%2u %2ld:%2ld:%n", &year, &month, &day, &hour, &minute,  // NOLINT
+                               &to_seconds);
+  if (read != 5 || to_seconds == 0) return std::nullopt;
   const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)};
-  const auto seconds = parse_stamp(text.substr(kToSeconds));
+  const auto seconds = parse_stamp(text.substr(static_cast<std::size_t>(to_seconds)));
   if (!date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !seconds || *seconds < 0) return std::nullopt;
   if (*seconds > 61'000'000'000 || year < 1970 || year > 2200) return std::nullopt;
   const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();

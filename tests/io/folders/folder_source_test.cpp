@@ -145,6 +145,27 @@ TEST(FolderSourceTest, StampsFromTimestampsBesideOrAbove) {
   }
 }
 
+TEST(FolderSourceTest, DatesWithoutLeadingZeros) {
+  const TempDir folder;
+  folder.write("1.bin", bin_of(1));
+  folder.write("2.bin", bin_of(2));
+  for (const char* text :
+       {"2011-09-26 09:02:59.500\n2011-09-26 09:03:05.25\n", "2011-9-26 9:02:59.500\n2011-9-26 9:3:5.25\n",
+        "2011-09-26 9:02:59.500\n2011-09-26 9:03:05.25\n"}) {
+    folder.write("timestamps.txt", text);
+    EXPECT_EQ(stamps_of(folder.path()),
+              (std::vector<std::int64_t>{1'317'027'779'500'000'000, 1'317'027'785'250'000'000}))
+        << text;
+  }
+  for (const char* line : {"2011-9-26 9:02:", "2011-9-26 9:02", "2011-9-26 9:02:x", "2011-9-26 9:02:99",
+                           "2011-9-26 9:02: 5", "2011-9-026 13:02:25", "11-9-26 9:02:59"}) {
+    folder.write("timestamps.txt", std::string(line) + "\n2011-9-26 9:03:05\n");
+    EXPECT_TRUE(has_warning(open_scan_source(folder.path())->info(),
+                            "timestamps.txt, line 1: '" + std::string(line) + "'; expected a date"))
+        << line;
+  }
+}
+
 TEST(FolderSourceTest, TimestampsThatDoNotFitAreNamed) {
   const TempDir folder;
   folder.write("d/lidar/1.bin", bin_of(1));

@@ -95,13 +95,11 @@ std::optional<SE3> raw_calibration(const fs::path& day) {
   const fs::path velo = day / "calib_velo_to_cam.txt";
   const fs::path cam = day / "calib_cam_to_cam.txt";
   if (!path_exists(velo) || !path_exists(cam)) return std::nullopt;
-  const auto T_unrectified = calibration_transform(velo);
-  const auto rectify = calibration_row(cam, "R_rect_00:");
-  if (!T_unrectified || rectify.size() != 9) return std::nullopt;
-  const Eigen::Matrix3d R_rect = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rectify.data());
+  const SE3 T_unrectified = calibration_transform(velo);
+  const Eigen::Matrix3d R_rect = calibration_rotation(cam, "R_rect_00:");
   SE3 T_cam_lidar = SE3::Identity();
-  T_cam_lidar.linear() = R_rect * T_unrectified->linear();
-  T_cam_lidar.translation() = R_rect * T_unrectified->translation();
+  T_cam_lidar.linear() = R_rect * T_unrectified.linear();
+  T_cam_lidar.translation() = R_rect * T_unrectified.translation();
   return T_cam_lidar;
 }
 

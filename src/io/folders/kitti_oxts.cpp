@@ -70,19 +70,11 @@ SE3 lidar_from_imu(const fs::path& drive) {
   std::error_code error;
   const fs::path day = fs::canonical(drive, error).parent_path();
   const fs::path file = path_exists(drive / kName) ? drive / kName : day / kName;
-  constexpr const char* kRemedy =
-      "Download the day's calibration from KITTI's raw data page and unpack it beside the drive";
   if (!path_exists(file)) {
     throw IoError({drive / "oxts", "", "poses of the GPS/IMU unit and no calib_imu_to_velo.txt",
-                   std::string("that file in ") + drive.string() + " or " + day.string(), kRemedy});
+                   std::string("that file in ") + drive.string() + " or " + day.string(), kCalibrationRemedy});
   }
-  const auto T = calibration_transform(file);
-  const double off =
-      T ? (T->linear().transpose() * T->linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() : 1;
-  if (!(off < 1e-3) || T->linear().determinant() < 0) {
-    throw IoError({file, "", "no transform", "R: with the 9 numbers of a rotation and T: with 3", kRemedy});
-  }
-  return renormalised(*T);
+  return renormalised(calibration_transform(file));
 }
 
 // Drives as "_extract" have the unit's own 100 Hz: their numbers are not those of the sweeps.

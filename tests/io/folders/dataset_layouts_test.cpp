@@ -33,6 +33,29 @@ TEST(DatasetLayoutsTest, KittiRaw) {
   EXPECT_EQ(source->info().T_cam_lidar->linear()(0, 1), -1);
 }
 
+TEST(DatasetLayoutsTest, KittiRawWithADamagedCalibration) {
+  const TempDir folder;
+  write_kitti_raw(folder, kDates);
+  const std::string velo = "R: 0 -1 0 0 0 -1 1 0 0\nT: 0.1 0.2 0.3\n";
+  const std::string cam = "R_rect_00: 1 0 0 0 1 0 0 0 1\n";
+  const auto open = [&] { open_scan_source(folder / "day/drive_0001_sync"); };
+  folder.write("day/calib_cam_to_cam.txt", cam);
+  for (const char* text : {"R: 0 0 0 0 0 0 0 0 0\nT: 1 2 3\n", "R: 0 -1 0 0 0 -1 -1 0 0\nT: 1 2 3\n",
+                           "R: nan -1 0 0 0 -1 1 0 0\nT: 1 2 3\n", "R: 0 -1 0 0 0 -1 1 0 0\nT: 1 nan 3\n",
+                           "R: 0 -1 0 0 0 -1 1 0 0\n", "R: 0 -1 0\nT: 1 2 3\n"}) {
+    folder.write("day/calib_velo_to_cam.txt", text);
+    expect_io_error(open, {"calib_velo_to_cam.txt: no transform", "R: with the 9 numbers of a rotation"});
+  }
+  folder.write("day/calib_velo_to_cam.txt", velo);
+  for (const char* text :
+       {"R_rect_00: 2 0 0 0 1 0 0 0 1\n", "R_rect_00: 1 0 0 0 1 0\n", "R_rect_01: 1 0 0 0 1 0 0 0 1\n"}) {
+    folder.write("day/calib_cam_to_cam.txt", text);
+    expect_io_error(open, {"calib_cam_to_cam.txt: no rotation", "R_rect_00: with the 9 numbers of a rotation"});
+  }
+  folder.write("day/calib_cam_to_cam.txt", cam);
+  open();
+}
+
 TEST(DatasetLayoutsTest, KittiRawWithWrongDates) {
   const TempDir folder;
   write_kitti_raw(folder, "2011-09-26 13:02:25.951199337\n2011-13-26 13:02:25.9\n");

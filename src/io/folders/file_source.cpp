@@ -43,16 +43,22 @@ std::vector<Field> fields_of(const std::filesystem::path& file, const std::strin
   return {};
 }
 
-// What the first file has, its time field above all; also fills in the fields of the listing. A file that cannot be
-// read is reported when it is reached.
+// Of the first sweeps, before the first is given.
+constexpr std::size_t kLookedAt = 12;
+
+// What the first file that can be read has, its time field above all; also fills in the fields of the listing. A file
+// that cannot be read is reported when it is reached.
 std::optional<std::string> promised_field(ScanListing& listing, const SourceOptions& options) {
-  try {
-    const std::vector<Field> fields = fields_of(listing.files.front(), listing.info.format, options);
-    const FieldRoles roles = find_roles(fields, options.time_field, {listing.files.front()});
-    listing.info.fields = describe_fields(fields, roles);
-    if (roles.time) return "field " + fields[*roles.time].name;
-  } catch (const IoError&) {
-    return std::nullopt;
+  for (std::size_t i = 0; i < std::min(kLookedAt, listing.files.size()); ++i) {
+    try {
+      const std::vector<Field> fields = fields_of(listing.files[i], listing.info.format, options);
+      const FieldRoles roles = find_roles(fields, options.time_field, {listing.files[i]});
+      listing.info.fields = describe_fields(fields, roles);
+      if (!roles.time) return std::nullopt;
+      return "field " + fields[*roles.time].name;
+    } catch (const IoError&) {
+      continue;
+    }
   }
   return std::nullopt;
 }
@@ -150,7 +156,6 @@ class FileSource final : public ScanSource {
   // Of the first three sweeps with times that differ: the steps between these say whether they count from an epoch.
   std::vector<RawTimes> first_time_ends() const {
     constexpr std::size_t kWanted = 3;
-    constexpr std::size_t kLookedAt = 12;
     std::vector<RawTimes> ends;
     if (!listing_.fraction_files.empty() || listing_.column_points > 0) return ends;  // known
     std::size_t telling = 0;

@@ -120,6 +120,27 @@ TEST(WrongTimesOfDrivesTest, AClockThatStartsAtZero) {
   }
 }
 
+// What the times mean is learnt from those that can be read.
+TEST(WrongTimesOfDrivesTest, FirstFilesThatCannotBeRead) {
+  const auto clock = [](std::size_t k, float part) { return 0.1F * (static_cast<float>(k) + part); };
+  const auto sweeps = drive(8, clock);
+  const TempDir folder;
+  files(folder, sweeps);
+  for (std::size_t k = 0; k < 2; ++k) folder.write("f/" + std::to_string(sweeps[k].stamp_ns) + ".pcd", "");
+  SourceOptions options;
+  options.on_bad_sweep = OnBadSweep::kSkip;
+  options.read_ahead = 0;
+  const auto source = open_scan_source(folder / "f", options);
+  EXPECT_TRUE(source->info().has_point_times);
+  EXPECT_EQ(source->info().fields.size(), 4U);
+  const auto read = sweeps_of(*source);
+  ASSERT_EQ(read.size(), 6U);
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_NEAR(static_cast<double>(read[k].stamp_ns), 1e8 * static_cast<double>(k + 2), 1e3);
+  }
+  EXPECT_EQ(source->info().bad_sweeps, 2U);
+}
+
 TEST(WrongTimesOfDrivesTest, HalvesThatCountFromTheWholeSweep) {
   const auto halves = [](std::size_t k, float part) { return 0.05F * (static_cast<float>(k % 2) + part); };
   const TempDir folder;

@@ -44,10 +44,11 @@ class PointTimeDecoder {
   /// Fills sweep.times_s from `raw`, which is as long as sweep.points; sets sweep.stamp_ns to the earliest point when
   /// the times count from an epoch. Points without a finite time become NaN, as do a few whose times are too far from
   /// those of the others to be of the same sweep. Points that are not a measurement (NaN, or
-  /// exactly at the origin) take no part in the decision and get time 0. `file` is for messages.
+  /// exactly at the origin) take no part in the decision and get time 0. `file` is for messages. Returns whether there
+  /// is a time at all; where there is none, the stamp stays.
   /// @throws IoError, with the numbers and the option to set, when the convention is ambiguous or a sweep contradicts
   /// it.
-  void decode(const RawTimes& raw, const std::filesystem::path& file, Sweep& sweep);
+  bool decode(const RawTimes& raw, const std::filesystem::path& file, Sweep& sweep);
 
   /// What was decided; nothing before the first sweep that decides.
   const std::optional<PointTimeConvention>& convention() const { return convention_; }

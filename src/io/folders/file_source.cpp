@@ -97,6 +97,12 @@ RawTimes read_fractions(const std::filesystem::path& file, std::size_t points) {
   return times;
 }
 
+// The ends of the times of some sweeps, and the stamps that the sweeps have without them.
+struct FirstTimes {
+  std::vector<RawTimes> ends;
+  std::vector<std::int64_t> stamps_ns;
+};
+
 class FileSource final : public ScanSource {
  public:
   FileSource(ScanListing listing, const SourceOptions& options)
@@ -105,7 +111,8 @@ class FileSource final : public ScanSource {
         timing_(options, hints_of(listing_, options), listing_.info.period_s) {
     const auto promised = promised_times(listing_, options_);
     if (options.point_times != PointTimes::kAuto) return;
-    timing_.promise(promised, promised ? first_time_ends() : std::vector<RawTimes>{});
+    const FirstTimes first = promised ? first_times() : FirstTimes{};
+    timing_.promise(promised, first.ends, first.stamps_ns);
   }
 
   std::optional<Sweep> next() override {
@@ -154,20 +161,21 @@ class FileSource final : public ScanSource {
   }
 
   // Of the first three sweeps with times that differ: the steps between these say whether they count from an epoch.
-  std::vector<RawTimes> first_time_ends() const {
+  FirstTimes first_times() const {
     constexpr std::size_t kWanted = 3;
-    std::vector<RawTimes> ends;
-    if (!listing_.fraction_files.empty() || listing_.column_points > 0) return ends;  // known
+    FirstTimes first;
+    if (!listing_.fraction_files.empty() || listing_.column_points > 0) return first;  // known
     std::size_t telling = 0;
     for (std::size_t i = 0; i < std::min(kLookedAt, listing_.files.size()) && telling < kWanted; ++i) {
       try {
         const RawCloud cloud = read_cloud(listing_.files[i]);
-        if (cloud.times && add_time_ends(*cloud.times, cloud.points, ends)) ++telling;
+        if (cloud.times && add_time_ends(*cloud.times, cloud.points, first.ends)) ++telling;
+        first.stamps_ns.resize(first.ends.size(), listing_.stamps_ns[i]);
       } catch (const IoError&) {
         // Reported when it is reached.
       }
     }
-    return ends;
+    return first;
   }
 
   Sweep load(std::size_t index) {

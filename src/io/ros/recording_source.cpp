@@ -138,6 +138,7 @@ class RecordingSource final : public ScanSource {
     std::vector<std::int64_t> received;
     std::optional<std::string> promised;
     std::vector<RawTimes> ends;
+    std::vector<Arrival> of_ends;
     recording_->select(topic_);
     for (std::size_t i = 0; i < kLookedAt; ++i) {
       CloudMessage cloud;
@@ -158,6 +159,7 @@ class RecordingSource final : public ScanSource {
       if (!cloud.cloud.times) continue;
       promised = "field " + cloud.cloud.times->field;
       add_time_ends(*cloud.cloud.times, cloud.cloud.points, ends);
+      of_ends.resize(ends.size(), {*cloud.stamp_ns, received_ns, i});
     }
     recording_->select(topic_);
     // ROS' stamp of nothing.
@@ -170,15 +172,22 @@ class RecordingSource final : public ScanSource {
     hints.period_s = period_s;
     hints.assumed_period_s = info_.period_s;
     timing_.emplace(options_, hints, info_.period_s);
-    timing_->promise(promised, ends);
+    std::vector<std::int64_t> stamps_of_ends;
+    for (const Arrival& arrival : of_ends) stamps_of_ends.push_back(stamp_of(arrival));
+    timing_->promise(promised, ends, stamps_of_ends);
   }
 
   std::string current_part() const { return "message " + std::to_string(current_ + 1) + " of " + topic_.name; }
 
-  std::int64_t stamp_of(const RecordedMessage& message, std::int64_t header_ns) const {
-    if (!unstamped_) return header_ns;
-    if (!info_.stamps_assumed) return message.received_ns;
-    return nanoseconds(static_cast<double>(current_) * info_.period_s);
+  struct Arrival {
+    std::int64_t header_ns = 0;
+    std::int64_t received_ns = 0;
+    std::size_t index = 0;
+  };
+  std::int64_t stamp_of(const Arrival& arrival) const {
+    if (!unstamped_) return arrival.header_ns;
+    if (!info_.stamps_assumed) return arrival.received_ns;
+    return nanoseconds(static_cast<double>(arrival.index) * info_.period_s);
   }
 
   Sweep decode(const RecordedMessage& message) {
@@ -188,7 +197,7 @@ class RecordingSource final : public ScanSource {
     check_sensor(cloud);
     RawCloud& columns = cloud.cloud;
     Sweep sweep;
-    sweep.stamp_ns = stamp_of(message, *cloud.stamp_ns);
+    sweep.stamp_ns = stamp_of({*cloud.stamp_ns, message.received_ns, current_});
     sweep.points = std::move(columns.points);
     sweep.intensities = std::move(columns.intensities);
     sweep.rings = std::move(columns.rings);

@@ -103,7 +103,7 @@ PointTimeConvention PointTimeDecoder::convention_of(const RawTimes& raw, const s
   return {unit, detail::reference_of(bulk, unit, hints_.reference, advances_)};
 }
 
-void PointTimeDecoder::decode(const RawTimes& raw, const std::filesystem::path& file, Sweep& sweep) {
+bool PointTimeDecoder::decode(const RawTimes& raw, const std::filesystem::path& file, Sweep& sweep) {
   if (raw.size() != sweep.points.size()) {
     throw std::invalid_argument("PointTimeDecoder: as many times as points are needed");
   }
@@ -114,7 +114,7 @@ void PointTimeDecoder::decode(const RawTimes& raw, const std::filesystem::path& 
       (all_zero && (undecided || (convention_ && convention_->reference == PointTimeReference::kEpoch)))) {
     // Nothing measured, nothing timed, or nothing said: with zero scale, measured points without a time become NaN.
     fill(all, false, 0, sweep);
-    return;
+    return false;
   }
   const PointTimeConvention convention = convention_ ? *convention_ : convention_of(raw, file, sweep);
   const double period_s = hints_.period_s.value_or(hints_.assumed_period_s);
@@ -129,6 +129,7 @@ void PointTimeDecoder::decode(const RawTimes& raw, const std::filesystem::path& 
   if (warning_.empty()) warning_ = warning_of(field, scale, outside, hints_.period_s);
   convention_ = convention;
   description_ = describe(field, convention);
+  return true;
 }
 
 std::int64_t pose_stamp_ns(std::int64_t middle_ns, std::int64_t sweep_stamp_ns) {

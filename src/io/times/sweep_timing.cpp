@@ -6,6 +6,7 @@
 
 #include "io/stamp_difference.hpp"
 #include "io/times/time_field.hpp"
+#include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
 
@@ -19,15 +20,18 @@ SweepTiming::SweepTiming(const SourceOptions& options, const PointTimeHints& hin
       period_s_(period_s),
       infers_unit_(hints.unit == PointTimeUnit::kInfer),
       stamps_in_field_(hints.reference == PointTimeReference::kEpoch),
-      decoder_(hints) {
+      decoder_(hints),
+      clock_(hints.period_s, hints.assumed_period_s) {
   if (from_ != PointTimes::kAzimuth) return;
   has_times_ = true;
   description_ = azimuth_description(options.spin_direction, period_s);
 }
 
-void SweepTiming::promise(const std::optional<std::string>& times, const std::vector<RawTimes>& ends) {
+void SweepTiming::promise(const std::optional<std::string>& times, const std::vector<RawTimes>& ends,
+                          const std::vector<std::int64_t>& stamps_ns) {
   if (from_ != PointTimes::kAuto) return;
   decoder_.learn(ends);
+  expect_clock(ends, stamps_ns);
   // Whoever tells the unit wants what is there, but zeros tell nothing.
   const auto tells_nothing = [this](const RawTimes& raw) {
     const bool floating = is_floating(raw.type);
@@ -40,6 +44,21 @@ void SweepTiming::promise(const std::optional<std::string>& times, const std::ve
   if (constant_) constant_field_ = ends.front().field;
 }
 
+// As the sweeps will be decoded. The first sweep may lack times, and what stamps the others shows only then.
+void SweepTiming::expect_clock(const std::vector<RawTimes>& ends, const std::vector<std::int64_t>& stamps_ns) {
+  PointTimeDecoder trial = decoder_;
+  for (std::size_t i = 0; i < std::min(ends.size(), stamps_ns.size()); ++i) {
+    Sweep sweep;
+    sweep.points.assign(ends[i].size(), Eigen::Vector3f::Ones());
+    try {
+      if (!trial.decode(ends[i], {}, sweep)) continue;
+    } catch (const IoError&) {
+      continue;  // reported when it is reached
+    }
+    if (trial.convention()->reference == PointTimeReference::kEpoch) clock_.expect(stamps_ns[i], sweep.stamp_ns);
+  }
+}
+
 void SweepTiming::apply(const std::optional<RawTimes>& times, const std::filesystem::path& file, double forward_after_s,
                         Sweep& sweep) {
   if (from_ == PointTimes::kNone || from_ == PointTimes::kOrder) return;  // see with_order_times()
@@ -49,8 +68,10 @@ void SweepTiming::apply(const std::optional<RawTimes>& times, const std::filesys
     return;
   }
   has_times_ = times.has_value();
+  const std::int64_t own_ns = sweep.stamp_ns;
   if (!times) {
     description_ = "none";
+    sweep.stamp_ns = clock_.stamp_of(own_ns);
     return;
   }
   if (constant_) {
@@ -59,7 +80,11 @@ void SweepTiming::apply(const std::optional<RawTimes>& times, const std::filesys
     has_times_ = !constant_;
     if (constant_) return;
   }
-  decoder_.decode(*times, file, sweep);
+  if (!decoder_.decode(*times, file, sweep)) {
+    sweep.stamp_ns = clock_.stamp_of(own_ns);
+  } else if (sets_stamps()) {
+    clock_.set(own_ns, sweep.stamp_ns);
+  }
   if (!decoder_.description().empty()) description_ = decoder_.description();
 }
 

@@ -1,11 +1,13 @@
 // Per-point times of the sweeps of one source, as its options say.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "io/times/point_clock.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/io/source_options.hpp"
 
@@ -20,10 +22,13 @@ class SweepTiming {
   SweepTiming(const SourceOptions& options, const PointTimeHints& hints, double period_s);
 
   /// Before the first sweep: the data promise times of that description, or none. `ends`: of the time field in the
-  /// first sweeps (see add_time_ends()); a field that is the same for all points of a sweep is none.
-  void promise(const std::optional<std::string>& times, const std::vector<RawTimes>& ends = {});
+  /// first sweeps (see add_time_ends()); a field that is the same for all points of a sweep is none. `stamps_ns`: their
+  /// stamps, as long as `ends`.
+  void promise(const std::optional<std::string>& times, const std::vector<RawTimes>& ends = {},
+               const std::vector<std::int64_t>& stamps_ns = {});
 
   /// Fills sweep.times_s (and the stamp, when the times count from an epoch) from `times`, the azimuth, or not at all.
+  /// In data stamped so, a sweep without times is stamped by those around it.
   /// `forward_after_s`: from the stamp to the time when the sensor faces forward, for azimuth times.
   /// @throws IoError when the times make no sense; `file` is for its message.
   void apply(const std::optional<RawTimes>& times, const std::filesystem::path& file, double forward_after_s,
@@ -37,12 +42,15 @@ class SweepTiming {
   bool sets_stamps() const;
 
  private:
+  void expect_clock(const std::vector<RawTimes>& ends, const std::vector<std::int64_t>& stamps_ns);
+
   PointTimes from_;
   SpinDirection spin_;
   double period_s_;
   bool infers_unit_;
   bool stamps_in_field_;  // one stamp for all points of a sweep is enough
   PointTimeDecoder decoder_;
+  PointClock clock_;
   bool constant_ = false;  // the field, in all sweeps so far
   std::string constant_field_;
   bool has_times_ = false;

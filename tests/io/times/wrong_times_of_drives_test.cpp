@@ -1,5 +1,7 @@
 // Point times of whole recordings that are wrong, missing, or do not show at once what they are.
 #include <cstdint>
+#include <initializer_list>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -139,6 +141,51 @@ TEST(WrongTimesOfDrivesTest, FirstFilesThatCannotBeRead) {
     EXPECT_NEAR(static_cast<double>(read[k].stamp_ns), 1e8 * static_cast<double>(k + 2), 1e3);
   }
   EXPECT_EQ(source->info().bad_sweeps, 2U);
+}
+
+// Sweeps of a clock that starts at 500 s (in float32 near enough), where some have no times: NaN points in a dropout.
+std::vector<Sweep> with_dropouts(std::size_t count, double step_s, std::initializer_list<std::size_t> dropouts) {
+  auto sweeps = drive(count, [&](std::size_t k, float part) {
+    return 500 + static_cast<float>(step_s) * (static_cast<float>(k) + part);
+  });
+  for (const std::size_t k : dropouts) {
+    sweeps[k].times_s.assign(kSweepPoints, 0.0F);
+    sweeps[k].points.assign(kSweepPoints, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+    sweeps[k].points[0] = Eigen::Vector3f(static_cast<float>(k) + 1, 2, 3);  // told apart
+  }
+  return sweeps;
+}
+
+void expect_even(const std::vector<Sweep>& read, std::size_t count, double step_s) {
+  ASSERT_EQ(read.size(), count);
+  for (std::size_t k = 0; k < count; ++k) {
+    EXPECT_NEAR(static_cast<double>(read[k].stamp_ns) * 1e-9, 500 + step_s * static_cast<double>(k), 0.05 * step_s)
+        << k;
+  }
+}
+
+TEST(WrongTimesOfDrivesTest, SweepsWithoutTimesAmongThoseThatTheirPointsStamp) {
+  for (const auto& open : {recording, files}) {
+    const TempDir folder;
+    const auto source = open(folder, with_dropouts(20, 0.1, {0, 1, 6, 12, 13, 19}), {});
+    expect_even(sweeps_of(*source), 20, 0.1);
+    EXPECT_EQ(source->info().faults, StampFaults{});
+  }
+}
+
+// Names that are no stamps: the assumed rate is not the true one.
+TEST(WrongTimesOfDrivesTest, SweepsWithoutTimesWhereTheRateIsAssumed) {
+  for (const double step_s : {0.05, 0.1, 0.14}) {
+    const auto sweeps = with_dropouts(20, step_s, {0, 1, 6, 12, 13, 19});
+    const TempDir folder;
+    for (std::size_t k = 0; k < sweeps.size(); ++k) write_pcd(folder / (std::to_string(k) + ".pcd"), sweeps[k]);
+    const auto source = open_scan_source(folder.path());
+    expect_even(sweeps_of(*source), 20, step_s);
+    EXPECT_EQ(source->info().faults, StampFaults{});
+    const auto later = open_scan_source(folder.path());
+    later->skip(12);
+    EXPECT_NEAR(static_cast<double>(later->next()->stamp_ns) * 1e-9, 500 + 12 * step_s, 0.05 * step_s);
+  }
 }
 
 TEST(WrongTimesOfDrivesTest, HalvesThatCountFromTheWholeSweep) {

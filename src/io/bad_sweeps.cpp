@@ -4,9 +4,10 @@
 
 namespace rilo::detail {
 
-void note_bad_sweep(const IoError& error, SourceInfo& info) {
+void note_bad_sweep(const IoError& error, SourceInfo& info, std::size_t sweeps) {
   constexpr std::size_t kMostMessages = 20;
-  if (info.bad_sweeps++ < kMostMessages) info.warnings.push_back(std::string("skipped: ") + error.what());
+  if (info.bad_sweeps < kMostMessages) info.warnings.push_back(std::string("skipped: ") + error.what());
+  info.bad_sweeps += sweeps;
 }
 
 void add_bad_sweep_count(SourceInfo& info) {

@@ -1,5 +1,6 @@
 #include "results/run_truth.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -37,9 +38,10 @@ PosesOfSweeps by_stamp(const PoseFile& file, const RunRecord& run, double max_ga
 }
 
 PosesOfSweeps by_index(const std::vector<SE3>& poses, const RunRecord& run) {
+  const std::size_t known = std::min(poses.size(), run.source.places_known.value_or(poses.size()));
   PosesOfSweeps result;
   for (const std::size_t index : run.indices) {
-    result.push_back(index < poses.size() ? std::optional(poses[index]) : std::nullopt);
+    result.push_back(index < known ? std::optional(poses[index]) : std::nullopt);
   }
   return result;
 }

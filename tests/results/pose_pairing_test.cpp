@@ -34,6 +34,23 @@ PoseFile of_data(const std::vector<std::int64_t>& stamps_ms, const std::vector<s
   return file;
 }
 
+// Behind damage of unknown size the true poses by place are those of other sweeps.
+TEST(PosePairing, NoTruthForSweepsWhosePlacesAreNotKnown) {
+  const TempDir folder;
+  RunRecord run;
+  run.indices = {0, 1, 3, 4};
+  run.results.resize(4);
+  const auto pairs = [&] {
+    std::vector<bool> paired;
+    for (const auto& pose : poses_of_sweeps({folder / "poses.txt"}, run)) paired.push_back(pose.has_value());
+    return paired;
+  };
+  folder.write("poses.txt", kitti_row(0, 0, 0) + kitti_row(1, 0, 0) + kitti_row(2, 0, 0) + kitti_row(3, 0, 0));
+  EXPECT_THAT(pairs(), ElementsAre(true, true, true, false));
+  run.source.places_known = 3;
+  EXPECT_THAT(pairs(), ElementsAre(true, true, false, false));
+}
+
 TEST(PosePairing, ByTheOffsetThatFitsMostPoses) {
   const PoseFile estimate = stamped_file({0, 100, 200, 300, 400});
   for (const std::vector<std::int64_t>& later_ms : {std::vector<std::int64_t>{0}, {50, 0}, {200, 0}, {0, 200}}) {

@@ -56,7 +56,10 @@ struct SourceInfo {
   std::string frame_id;                 ///< of its messages
   StampFaults faults;                   ///< of the stamps so far
   std::size_t bad_sweeps = 0;           ///< skipped so far (OnBadSweep::kSkip)
-  std::vector<std::string> warnings;    ///< sentences for the user
+  /// Sweeps from this place on have another place than ScanSource::current_index() says: damage took an unknown number
+  /// of sweeps before them. Nothing: all places are known.
+  std::optional<std::size_t> places_known;
+  std::vector<std::string> warnings;  ///< sentences for the user
 };
 
 /// A topic of a recording.

@@ -37,6 +37,8 @@ class Reader final : public Recording {
     topic_ = topic;
     place_ = kMagic.size();
     leave_chunk();
+    passed_ = 0;
+    places_known_ = true;
     without_topic_.clear();
     for (const ChunkIndex& chunk : chunks_) {
       const auto wanted = [&](std::uint16_t id) { return is_wanted(id); };
@@ -47,8 +49,21 @@ class Reader final : public Recording {
   }
 
   std::optional<RecordedMessage> next() override {
-    return walk([&](const MessageHeader& header) { return is_wanted(header.channel_id); });
+    while (true) {
+      lost_ = 1;
+      try {
+        auto message = walk([&](const MessageHeader& header) { return is_wanted(header.channel_id); });
+        if (message) ++passed_;
+        return message;
+      } catch (const IoError&) {
+        note_lost();
+        if (lost_ > 0) throw;  // else the chunk has nothing of the topic
+      }
+    }
   }
+
+  std::size_t lost() const override { return lost_; }
+  bool places_known() const override { return places_known_; }
 
  private:
   // A disk that cannot be read ends the file: the call after the error must not come here again.
@@ -57,6 +72,7 @@ class Reader final : public Recording {
       return file_.record_at(place_);
     } catch (const IoError&) {
       place_ = file_.size();
+      last_opcode_ = Opcode::kFooter;
       throw;
     }
   }
@@ -112,12 +128,68 @@ class Reader final : public Recording {
                  ++counts_[header.channel_id];
                  return false;
                }).has_value();
-      } catch (const IoError&) {
-        // Reported when it is reached.
+      } catch (const IoError&) {  // reported when it is reached
+        if (last_opcode_ == Opcode::kChunk && !chunk_read_) {
+          for (const MessageIndex& index : indices_behind_chunk()) counts_[index.channel_id] += index.messages;
+        }
       }
     }
     place_ = kMagic.size();
     leave_chunk();
+  }
+
+  // After an error of walk(): what it took of the topic.
+  void note_lost() {
+    std::optional<std::size_t> lost = last_opcode_ == Opcode::kMessage ? 1 : lost_of_chunk();
+    if (!lost) lost = missing_by_statistics();
+    if (!lost) places_known_ = false;
+    lost_ = lost.value_or(1);
+    passed_ += lost_;
+  }
+
+  std::optional<std::size_t> lost_of_chunk() {
+    const std::vector<MessageIndex> indices = indices_behind_chunk();
+    if (indices.empty()) return std::nullopt;
+    std::size_t messages = 0;
+    for (const MessageIndex& index : indices) messages += is_wanted(index.channel_id) ? index.messages : 0;
+    return messages - std::min(messages, given_of_chunk_);
+  }
+
+  // Empty: the file has none, or they are damaged, too.
+  std::vector<MessageIndex> indices_behind_chunk() {
+    std::vector<MessageIndex> indices;
+    try {
+      for (auto at = place_;;) {
+        const auto record = file_.record_at(at);
+        if (!record || record->opcode != Opcode::kMessageIndex) return indices;
+        file_.look_into(*record, [&](ByteCursor cursor) { indices.push_back(take_message_index(cursor)); });
+        at = record->end();
+      }
+    } catch (const IoError&) {
+      return {};
+    }
+  }
+
+  // What is neither before nor behind the damage, when there is no other one behind it. Reads the rest of the file.
+  std::optional<std::size_t> missing_by_statistics() {
+    std::uint64_t elsewhere = passed_;
+    std::uint64_t total = 0;
+    for (const auto& [id, count] : counts_) total += is_wanted(id) ? count : 0;
+    if (!places_known_ || total <= elsewhere) return std::nullopt;
+    const std::uint64_t place = place_;
+    bool whole = true;
+    try {
+      walk([&](const MessageHeader& header) {
+        elsewhere += is_wanted(header.channel_id) ? 1 : 0;
+        return false;
+      });
+    } catch (const IoError&) {
+      whole = false;
+    }
+    place_ = place;
+    leave_chunk();
+    if (!whole || total <= elsewhere) return std::nullopt;
+    return static_cast<std::size_t>(total - elsewhere);
   }
 
   void list_topics() {
@@ -149,6 +221,7 @@ class Reader final : public Recording {
       const auto record = record_at_place();
       if (!record || record->opcode == Opcode::kDataEnd || record->opcode == Opcode::kFooter) return std::nullopt;
       place_ = record->end();
+      last_opcode_ = record->opcode;
       if (record->opcode == Opcode::kChunk) {
         if (!without_topic_.contains(record->offset)) enter_chunk(*record);
       } else if (record->opcode == Opcode::kMessage) {
@@ -178,6 +251,8 @@ class Reader final : public Recording {
 
   void enter_chunk(const Record& record) {
     leave_chunk();
+    chunk_read_ = false;
+    given_of_chunk_ = 0;
     chunk_origin_ = {file_.path(), "chunk at byte " + std::to_string(record.offset)};
     file_.look_into(record, [&](ByteCursor cursor) {
       const ChunkHeader header = take_chunk_header(cursor);
@@ -190,6 +265,7 @@ class Reader final : public Recording {
         throw;
       }
     });
+    chunk_read_ = true;
   }
 
   void unpack(const ChunkHeader& header, std::string_view packed) {
@@ -233,6 +309,7 @@ class Reader final : public Recording {
       if (opcode != Opcode::kMessage) return std::nullopt;
       const MessageHeader header = take_message_header(cursor);
       if (!wanted(header)) return std::nullopt;
+      ++given_of_chunk_;
       return RecordedMessage{header.log_time_ns, content.substr(cursor.offset()), file_.path()};
     } catch (const IoError&) {
       leave_chunk();
@@ -249,8 +326,14 @@ class Reader final : public Recording {
   RecordedTopic topic_;
   std::set<std::uint64_t> without_topic_;
   std::uint64_t place_ = kMagic.size();  // of the next record
+  Opcode last_opcode_ = Opcode::kHeader;
+  std::uint64_t passed_ = 0;  // messages of the topic, given or lost
+  std::size_t lost_ = 1;
+  bool places_known_ = true;
   std::vector<char> chunk_;
   std::size_t chunk_place_ = 0;
+  bool chunk_read_ = false;         // it was unpacked, and its CRC is right
+  std::size_t given_of_chunk_ = 0;  // messages
   BytesOrigin chunk_origin_;
 };
 

@@ -61,6 +61,14 @@ ChunkIndex take_chunk_index(ByteCursor cursor) {
   return index;
 }
 
+MessageIndex take_message_index(ByteCursor cursor) {
+  constexpr std::size_t kEntry = 16;  // log time and offset of a message
+  MessageIndex index;
+  index.channel_id = cursor.take<std::uint16_t>("channel id");
+  index.messages = cursor.take_text("message index").size() / kEntry;
+  return index;
+}
+
 std::map<std::uint16_t, std::uint64_t> take_message_counts(ByteCursor cursor) {
   constexpr std::size_t kBeforeCounts = 42;
   cursor.take_bytes(kBeforeCounts, "statistics");

@@ -68,6 +68,13 @@ struct ChunkIndex {
 };
 ChunkIndex take_chunk_index(ByteCursor cursor);
 
+/// Of the records behind a chunk, one for each channel that has messages in it.
+struct MessageIndex {
+  std::uint16_t channel_id = 0;
+  std::size_t messages = 0;
+};
+MessageIndex take_message_index(ByteCursor cursor);
+
 /// Messages by channel. Empty when the file does not say.
 std::map<std::uint16_t, std::uint64_t> take_message_counts(ByteCursor cursor);
 

@@ -29,10 +29,10 @@ std::size_t Recording::skip(std::size_t count) {
   while (skipped < count) {
     try {
       if (!next()) break;
+      ++skipped;
     } catch (const IoError&) {
-      // Nobody wants this message: that it is damaged does not matter.
+      skipped += lost();  // nobody wants these messages: that they are damaged does not matter
     }
-    ++skipped;
   }
   return skipped;
 }
@@ -56,6 +56,7 @@ class RecordingsInTurn final : public Recording {
   void select(const RecordedTopic& topic) override {
     topic_ = topic;
     place_ = 0;
+    places_known_ = true;
     if (files_.size() > 1) current_.reset();
     if (!current_) return;
     current_->select(topic);
@@ -65,17 +66,19 @@ class RecordingsInTurn final : public Recording {
   std::optional<RecordedMessage> next() override {
     while (current_ || open_next()) {
       if (auto message = current_->next()) return message;
-      keep_warnings();
-      current_.reset();
+      close_current();
     }
     return std::nullopt;
   }
+
+  std::size_t lost() const override { return current_ ? current_->lost() : 1; }
+  bool places_known() const override { return places_known_ && (!current_ || current_->places_known()); }
 
   std::size_t skip(std::size_t count) override {
     std::size_t skipped = 0;
     while (skipped < count && (current_ || open_next())) {
       skipped += current_->skip(count - skipped);
-      if (skipped < count) current_.reset();
+      if (skipped < count) close_current();
     }
     return skipped;
   }
@@ -118,6 +121,12 @@ class RecordingsInTurn final : public Recording {
     return false;
   }
 
+  void close_current() {
+    keep_warnings();
+    places_known_ = places_known();
+    current_.reset();
+  }
+
   void keep_warnings() {
     for (std::string& warning : current_->warnings()) {
       if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) {
@@ -134,6 +143,7 @@ class RecordingsInTurn final : public Recording {
   RecordedTopic topic_;
   std::unique_ptr<Recording> current_;
   std::size_t place_ = 0;
+  bool places_known_ = true;  // in the files before the current one
 };
 
 }  // namespace

@@ -60,7 +60,14 @@ class Recording {
   /// @throws IoError when it cannot be read; the following call continues after it.
   virtual std::optional<RecordedMessage> next() = 0;
 
-  /// Passes over up to `count` messages; returns how many there were.
+  /// Messages of the topic that the last error of next() took: all of a damaged chunk.
+  virtual std::size_t lost() const { return 1; }
+
+  /// False from the first error on of which that is not known (lost() is 1 then), until the next selection.
+  virtual bool places_known() const { return true; }
+
+  /// Passes over `count` messages, or up to the end; returns how many there were. More where the last ones are lost
+  /// together with some after them.
   virtual std::size_t skip(std::size_t count);
 
   /// Of the opening and so far: "cut off at byte 4711: the messages before are used".

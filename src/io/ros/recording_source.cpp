@@ -88,20 +88,21 @@ class RecordingSource final : public ScanSource {
 
   std::optional<Sweep> next() override {
     while (true) {
+      lost_ = 1;
       try {
-        const auto message = recording_->next();
+        const auto message = next_message();
         if (!message) return std::nullopt;
-        current_ = cursor_++;
         return decode(*message);
       } catch (const IoError& error) {
         if (options_.on_bad_sweep == OnBadSweep::kFail) throw;
-        note_bad_sweep(error, info_);
+        note_bad_sweep(error, info_, lost_);
       }
     }
   }
 
   std::size_t skip(std::size_t count) override {
     const std::size_t skipped = recording_->skip(count);
+    note_places();
     cursor_ += skipped;
     return skipped;
   }
@@ -127,6 +128,12 @@ class RecordingSource final : public ScanSource {
     for (std::string& warning : timing_->warnings()) info.warnings.push_back(std::move(warning));
     for (std::string& warning : recording_->warnings()) info.warnings.push_back(std::move(warning));
     add_bad_sweep_count(info);
+    if (info.places_known) {
+      info.warnings.push_back(fmt::format(
+          "how many messages a damaged part of the recording held is not known: only the sweeps before place {} are "
+          "compared with ground truth",
+          *info.places_known));
+    }
     return info;
   }
 
@@ -175,6 +182,25 @@ class RecordingSource final : public ScanSource {
     std::vector<std::int64_t> stamps_of_ends;
     for (const Arrival& arrival : of_ends) stamps_of_ends.push_back(stamp_of(arrival));
     timing_->promise(promised, ends, stamps_of_ends);
+  }
+
+  // Damage may take more than one message.
+  std::optional<RecordedMessage> next_message() {
+    try {
+      auto message = recording_->next();
+      if (message) current_ = cursor_++;
+      return message;
+    } catch (const IoError&) {
+      note_places();
+      lost_ = recording_->lost();
+      current_ = cursor_;
+      cursor_ += lost_;
+      throw;
+    }
+  }
+
+  void note_places() {
+    if (!recording_->places_known() && !info_.places_known) info_.places_known = cursor_;
   }
 
   std::string current_part() const { return "message " + std::to_string(current_ + 1) + " of " + topic_.name; }
@@ -239,6 +265,7 @@ class RecordingSource final : public ScanSource {
   std::string sensor_;       // that of the first message
   std::size_t cursor_ = 0;   // of the next message
   std::size_t current_ = 0;  // of the last one
+  std::size_t lost_ = 1;     // by the last error
   std::optional<std::int64_t> usual_delay_ns_;
 };
 

@@ -99,6 +99,8 @@ class Wrapped : public Recording {
   const std::vector<RecordedTopic>& topics() const override { return inner_->topics(); }
   void select(const RecordedTopic& topic) override { inner_->select(topic); }
   std::optional<RecordedMessage> next() override { return inner_->next(); }
+  std::size_t lost() const override { return inner_->lost(); }
+  bool places_known() const override { return inner_->places_known(); }
   std::size_t skip(std::size_t count) override { return inner_->skip(count); }
   std::vector<std::string> warnings() const override { return inner_->warnings(); }
 

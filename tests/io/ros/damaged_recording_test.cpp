@@ -1,4 +1,5 @@
 // Recordings that are cut off, damaged, or made to harm.
+#include <algorithm>
 #include <random>
 #include <sqlite3.h>
 
@@ -47,6 +48,119 @@ TEST(DamagedRecordingTest, ADamagedChunkIsLeftOut) {
   expect_same_sweep(source->next().value(), sweeps[2]);
   EXPECT_FALSE(source->next());
   EXPECT_EQ(source->info().bad_sweeps, 1U);
+}
+
+// Ten sweeps from `first` on, in chunks of three, and packets of another topic. The chunks with the damaged sweeps,
+// counted in the file, are damaged.
+std::string broken_mcap(std::initializer_list<int> damaged_sweeps, bool index, bool summary, std::size_t first = 0) {
+  auto messages = recorded(numbered_sweeps(first + 10), MessageEncoding::kCdr);
+  messages.erase(messages.begin(), messages.begin() + static_cast<std::ptrdiff_t>(first));
+  for (int k = 0; k < 2; ++k) messages.insert(messages.begin() + 3, {"/imu", 0, std::string(100, 'i')});
+  McapShape shape{"", 3, summary};
+  shape.message_index = index;
+  std::string bytes = mcap_bytes(kTopics, messages, shape);
+  for (const int sweep : damaged_sweeps) {
+    std::size_t place = 0;
+    for (int k = 0; k <= sweep; ++k) place = bytes.find("lidar", place + 1);
+    bytes[place + 200] = static_cast<char>(~bytes[place + 200]);
+  }
+  return bytes;
+}
+
+std::unique_ptr<ScanSource> open_skipping(const fs::path& file) {
+  SourceOptions options;
+  options.on_bad_sweep = OnBadSweep::kSkip;
+  options.read_ahead = 0;
+  return open_scan_source(file, options);
+}
+
+// Where each sweep of the source lay among the numbered ones, and where the source says it did.
+std::vector<std::pair<std::size_t, std::size_t>> places_in(ScanSource& source) {
+  std::vector<std::pair<std::size_t, std::size_t>> places;
+  while (const auto sweep = source.next()) {
+    places.emplace_back(static_cast<std::size_t>(sweep->points[0].x()), source.current_index());
+  }
+  return places;
+}
+using Places = std::vector<std::pair<std::size_t, std::size_t>>;
+
+// Chunks: sweeps 0 to 2; the packets and 3; 4 to 6; 7 to 9.
+TEST(DamagedRecordingTest, PlacesBehindADamagedChunkAreThose) {
+  for (const auto& [index, summary] : {std::pair(true, true), {true, false}, {false, true}}) {
+    SCOPED_TRACE(std::string(index ? "index " : "") + (summary ? "summary" : ""));
+    const TempDir folder;
+    const fs::path file = folder.write("b.mcap", broken_mcap({4}, index, summary));
+    auto source = open_skipping(file);
+    EXPECT_EQ(source->size(), 10U);
+    EXPECT_EQ(places_in(*source), (Places{{0, 0}, {1, 1}, {2, 2}, {3, 3}, {7, 7}, {8, 8}, {9, 9}}));
+    EXPECT_EQ(source->info().bad_sweeps, 3U);
+    EXPECT_FALSE(source->info().places_known);
+    EXPECT_TRUE(has_warning(source->info(), "3 sweeps could not be read"));
+    for (const std::size_t skipped : {5U, 8U}) {
+      source = open_skipping(file);
+      EXPECT_EQ(source->skip(skipped), std::max<std::size_t>(skipped, 7));
+      EXPECT_EQ(source->next()->points[0].x(), static_cast<float>(std::max<std::size_t>(skipped, 7)) + 0.1F);
+      EXPECT_EQ(source->current_index(), std::max<std::size_t>(skipped, 7));
+    }
+    source = open_scan_source(file);
+    for (int k = 0; k < 4; ++k) source->next();
+    expect_io_error([&] { source->next(); }, {"b.mcap", "chunk at byte", "CRC"});
+    source->next();
+    EXPECT_EQ(source->current_index(), 7U);
+  }
+}
+
+TEST(DamagedRecordingTest, PlacesInASplitRecording) {
+  const TempDir folder;
+  folder.write("m/m_0.mcap", broken_mcap({3, 8}, true, false));
+  folder.write("m/m_1.mcap", broken_mcap({8}, true, true, 10));
+  auto source = open_skipping(folder / "m");
+  EXPECT_EQ(source->size(), 20U);
+  EXPECT_EQ(places_in(*source), (Places{{0, 0},
+                                        {1, 1},
+                                        {2, 2},
+                                        {4, 4},
+                                        {5, 5},
+                                        {6, 6},
+                                        {10, 10},
+                                        {11, 11},
+                                        {12, 12},
+                                        {13, 13},
+                                        {14, 14},
+                                        {15, 15},
+                                        {16, 16}}));
+  EXPECT_EQ(source->info().bad_sweeps, 7U);
+  source = open_skipping(folder / "m");
+  EXPECT_EQ(source->skip(8), 10U);
+}
+
+TEST(DamagedRecordingTest, PlacesThatAreNotKnown) {
+  const TempDir folder;
+  const std::string warning = "only the sweeps before place 4";
+  for (const auto& bytes : {broken_mcap({4}, false, false), broken_mcap({4, 7}, false, true)}) {
+    const fs::path file = folder.write("b.mcap", bytes);
+    auto source = open_skipping(file);
+    EXPECT_TRUE(source->next());
+    EXPECT_FALSE(source->info().places_known);
+    places_in(*source);
+    EXPECT_EQ(source->info().places_known, 4U);
+    EXPECT_TRUE(has_warning(source->info(), warning));
+    source = open_skipping(file);
+    source->skip(6);
+    EXPECT_TRUE(source->info().places_known);
+  }
+}
+
+// Nobody misses the packets.
+TEST(DamagedRecordingTest, AChunkWithoutTheTopicDoesNoHarm) {
+  const TempDir folder;
+  const auto sweeps = recorded(numbered_sweeps(2), MessageEncoding::kCdr);
+  McapShape shape{"", 1, false};
+  shape.message_index = true;
+  std::string bytes = mcap_bytes(kTopics, {sweeps[0], {"/imu", 0, std::string(100, 'i')}, sweeps[1]}, shape);
+  bytes[bytes.find("iiiii")] = 'j';
+  const auto source = open_scan_source(folder.write("i.mcap", bytes));
+  EXPECT_EQ(places_in(*source), (Places{{0, 0}, {1, 1}}));
 }
 
 TEST(DamagedRecordingTest, FilesThatAreNone) {

@@ -54,6 +54,15 @@ std::string index_record(std::uint64_t offset, const std::map<std::uint16_t, std
   return record(8, index.text);
 }
 
+// Behind a chunk: a time and an offset for each of its messages.
+std::string message_index_records(const std::map<std::uint16_t, std::uint64_t>& channels) {
+  std::string records;
+  for (const auto& [id, count] : channels) {
+    records += record(7, Bytes().put(id).sequence(std::string(count * 16, '\0')).text);
+  }
+  return records;
+}
+
 std::string statistics_record(const std::map<std::uint16_t, std::uint64_t>& counts) {
   Bytes pairs;
   for (const auto& [id, count] : counts) pairs.put(id).put(count);
@@ -94,6 +103,7 @@ std::string mcap_bytes(const Topics& topics, const std::vector<Recorded>& messag
   const auto close_chunk = [&] {
     indices += index_record(file.size(), in_chunk);
     file += chunk_record(chunk, shape);
+    if (shape.message_index) file += message_index_records(in_chunk);
     chunk.clear();
     in_chunk.clear();
     waiting = 0;

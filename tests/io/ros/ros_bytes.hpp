@@ -130,7 +130,8 @@ struct McapShape {
   std::size_t chunk_messages = 2;  ///< 0: no chunks
   bool summary = true;
   std::string encoding = "cdr";
-  std::string left_out = {};  ///< of the summary: "schemas", or "channels" (and schemas)
+  std::string left_out = {};   ///< of the summary: "schemas", or "channels" (and schemas)
+  bool message_index = false;  ///< behind each chunk
 };
 std::string mcap_bytes(const Topics& topics, const std::vector<Recorded>& messages, const McapShape& shape);
 

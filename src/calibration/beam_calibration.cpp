@@ -35,7 +35,7 @@ void BeamCalibration::observe(const BeamSample& sample, const LocalMap& map, con
                               const AdaptiveIcpConfig& config) {
   observations_.assign(sample.cloud.size(), Observation{});
   const Eigen::Matrix3d to_sensor = icp.state.T_odom_lidar.linear().transpose();
-  const RegisteredSource sweep{sample.cloud, icp.state, sigma_th_m, config.gate * sigma_th_m};
+  const RegisteredSource sweep{sample.cloud, icp.state, sigma_th_m, config};
   for_each_residual(sweep, map, [&](std::size_t /*chunk*/, const PlaneResidual& residual) {
     if (sample.beams[residual.index] >= kBeams) {
       return;

@@ -65,7 +65,7 @@ ElevationInformation elevation_information(const TimedCloud& source, const Local
                                            double sigma_th_m, const AdaptiveIcpConfig& config,
                                            const PoseDerivative& last, std::size_t stride) {
   const Eigen::Vector3d t = icp.state.T_odom_lidar.translation();
-  const RegisteredSource sweep{source, icp.state, sigma_th_m, config.gate * sigma_th_m, stride};
+  const RegisteredSource sweep{source, icp.state, sigma_th_m, config, stride};
   const std::vector<Row> rows = rows_of(sweep, map, last, source.timed() && config.refine_motion);
   Vector12d mixed = Vector12d::Zero();  // of δ with pose and velocity
   double square = 0.0;

@@ -21,8 +21,10 @@ namespace {
 constexpr std::size_t kBeamSample = 4000;  // points: enough for 128 beams at little cost
 constexpr std::size_t kPhaseStep = 8;      // shares no factor with an odd stride: all points get their turn
 constexpr std::size_t kTimeSample = 100;   // points: a unit is wrong for nearly all of them
-constexpr double kMostGrowth = 1.15;       // of the voxel in a sweep: its number of points changes by a third
-constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz
+constexpr float kTimeSlack = 0.25F;   // of the usual span of the times: what is beyond is of no return of the sweep ...
+constexpr double kMostStray = 0.02;   // ... unless that many points are, as in a sweep that is longer
+constexpr double kMostGrowth = 1.15;  // of the voxel in a sweep: its number of points changes by a third
+constexpr double kSceneSmoothing = 0.1;  // about a second at 10 Hz
 
 void find_angles(const BeamAngles& of, std::span<const Beam> beams, PointBlock::Lanes<float>& elevation_rad,
                  PointBlock::Lanes<float>& azimuth_rad) {
@@ -165,8 +167,7 @@ void Preprocessor::reset() {
   beam_angles_ = BeamAngles{};
   sample_phase_ = 0;
   elevation_offset_rad_ = 0.0;
-  span_begin_s_ = std::numeric_limits<float>::infinity();
-  span_end_s_ = -span_begin_s_;
+  times_ = {};
   source_points_ = static_cast<double>(config_.source_points);
   source_voxel_m_ = 0.0;
   prepared_.scene_range_m = 0.0;
@@ -188,8 +189,8 @@ void Preprocessor::find_valid(const SweepView& sweep, bool timed) {
     alignas(64) PointBlock::Lanes<float> begins;
     alignas(64) PointBlock::Lanes<float> ends;
     Chunk& found = chunks_[chunk];
-    begins.fill(found.begin_s);
-    ends.fill(found.end_s);
+    begins.fill(found.times.begin_s);
+    ends.fill(found.times.end_s);
     for_each_block(begin, end, [&](std::size_t first, std::size_t n) {
       p.load(&sweep.points[first], n);
       if (timed) {
@@ -203,9 +204,41 @@ void Preprocessor::find_valid(const SweepView& sweep, bool timed) {
         widen_spans(times, valid, begins, ends);
       }
     });
-    found.begin_s = *std::min_element(begins.begin(), begins.end());
-    found.end_s = *std::max_element(ends.begin(), ends.end());
+    found.times = {*std::min_element(begins.begin(), begins.end()), *std::max_element(ends.begin(), ends.end())};
   });
+}
+
+/// A single time that is none of the sweep, as of a packet from elsewhere, would move the middle of all sweeps after
+/// it.
+void Preprocessor::drop_stray_times(const SweepView& sweep) {
+  TimeSpan now;
+  for (const Chunk& chunk : chunks_) {
+    now.widen(chunk.times);
+  }
+  const TimeSpan usual = times_.empty() ? bulk_of(sweep.times_s, valid_) : times_;
+  const float slack = kTimeSlack * usual.length_s();
+  const TimeSpan allowed{usual.begin_s - slack, usual.end_s + slack};
+  if (now.empty() || !(slack > 0.0F) || allowed.contains(now)) {
+    return;
+  }
+  const auto is_stray = [&](std::size_t i) { return valid_[i] != 0 && !allowed.contains(sweep.times_s[i]); };
+  std::size_t strays = 0;
+  for (std::size_t i = 0; i < valid_.size(); ++i) {
+    strays += is_stray(i) ? 1 : 0;
+  }
+  const auto points = std::accumulate(valid_.begin(), valid_.end(), std::size_t{0});
+  if (static_cast<double>(strays) > kMostStray * static_cast<double>(points)) {
+    return;
+  }
+  for (Chunk& chunk : chunks_) {
+    chunk.times = {};
+  }
+  for (std::size_t i = 0; i < valid_.size(); ++i) {
+    valid_[i] = is_stray(i) ? 0 : valid_[i];
+    if (valid_[i] != 0) {
+      chunks_[i / kChunkSize].times.widen({sweep.times_s[i], sweep.times_s[i]});
+    }
+  }
 }
 
 /// Returns how many. In clear air the isolated returns are those of poles and twigs, which say where the sensor is.
@@ -235,6 +268,9 @@ std::size_t Preprocessor::place_chunks() {
 void Preprocessor::crop(const SweepView& sweep) {
   const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
   find_valid(sweep, timed);
+  if (timed) {
+    drop_stray_times(sweep);
+  }
   prepared_.flakes = drop_flakes(sweep);
   const std::size_t kept = place_chunks();
   const float mid_s = timed ? middle_of_times() : 0.0F;
@@ -287,10 +323,9 @@ void Preprocessor::crop(const SweepView& sweep) {
 /// Middle of the span of the times (s) over all sweeps so far, also for a sweep without points; 0 before the first.
 float Preprocessor::middle_of_times() {
   for (const Chunk& chunk : chunks_) {
-    span_begin_s_ = std::min(span_begin_s_, chunk.begin_s);
-    span_end_s_ = std::max(span_end_s_, chunk.end_s);
+    times_.widen(chunk.times);
   }
-  return span_begin_s_ <= span_end_s_ ? 0.5F * (span_begin_s_ + span_end_s_) : 0.0F;
+  return times_.empty() ? 0.0F : 0.5F * (times_.begin_s + times_.end_s);
 }
 
 }  // namespace rilo

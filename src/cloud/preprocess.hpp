@@ -10,6 +10,7 @@
 #include "cloud/beam_sample.hpp"
 #include "cloud/isolated_returns.hpp"
 #include "cloud/thinning.hpp"
+#include "cloud/time_span.hpp"
 #include "cloud/timed_cloud.hpp"
 #include "cloud/voxel_mean.hpp"
 #include "rilo/cloud/sweep.hpp"
@@ -72,14 +73,14 @@ class Preprocessor {
  private:
   /// What is kept of a chunk of the sweep.
   struct Chunk {
-    std::size_t to = 0;                                      // place of the first in the cropped cloud
-    float begin_s = std::numeric_limits<float>::infinity();  // span of their times
-    float end_s = -std::numeric_limits<float>::infinity();
+    std::size_t to = 0;  // place of the first in the cropped cloud
+    TimeSpan times;
   };
   void crop(const SweepView& sweep);
   void find_valid(const SweepView& sweep, bool timed);
   std::size_t drop_flakes(const SweepView& sweep);
   std::size_t place_chunks();
+  void drop_stray_times(const SweepView& sweep);
   float middle_of_times();
   void sample_beams();
   void downsample(double source_voxel_m);
@@ -107,8 +108,7 @@ class Preprocessor {
   std::size_t sample_phase_ = 0;
   // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its
   // seam, and the reference time must not.
-  float span_begin_s_ = std::numeric_limits<float>::infinity();
-  float span_end_s_ = -std::numeric_limits<float>::infinity();
+  TimeSpan times_;
 };
 
 }  // namespace rilo

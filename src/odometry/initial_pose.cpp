@@ -73,7 +73,11 @@ InitialPose InitialPoseStage::choose(const Situation& situation) {
     return choice;
   }
   const Search found = search(situation, doubt);
-  choice = select_initial_pose(prediction, found.best, config_);
+  if (found.best.score >= 0.0) {
+    choice = select_initial_pose(prediction, found.best, config_);
+  } else {
+    choice.reason = InitialPoseReason::kWorseMapScore;  // nothing that was found can be
+  }
   choice.coarse_iterations = found.iterations;
   choice.coarse_starts = found.starts;
   choice.coarse_cut = found.cut;

@@ -8,7 +8,7 @@
 
 namespace rilo {
 
-/// What fits over how far it is off (1/m): score times share of the points that are matched over their residuals. The
+/// What fits over how far it is off (1/m): score times correspondences per point over their residuals. The
 /// score sees small differences, the correspondences all points. Comparable within the same gate.
 inline double quality_of(const IcpResult& icp, double score, std::size_t points) {
   const double share = static_cast<double>(icp.inliers) / static_cast<double>(points);

@@ -1,6 +1,7 @@
 #include "odometry/pipeline.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -65,6 +66,7 @@ void Pipeline::process(const SweepView& sweep, SweepResult& result) {
   } else {
     register_to_map(prepared, result);
   }
+  result.stats.times.map_ms = clock_.lap_ms();
   finish(result);
 }
 
@@ -83,7 +85,6 @@ void Pipeline::register_to_map(const PreparedSweep& prepared, SweepResult& resul
     const bool found = map_.sweeps() == 1 && registration.icp.converged();
     lose(prepared, found ? registration.icp.state : predicted.steady(), std::nullopt, result);
   }
-  result.stats.times.map_ms = clock_.lap_ms();
 }
 
 const PreparedSweep& Pipeline::prepare(const SweepView& sweep, SweepResult& result) {
@@ -214,10 +215,13 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   if (since_s > 0.0) {
     acceleration = (icp.state.twist - twist_before) / since_s;
   }
+  // A sweep that was found again may be degenerate, too.
+  const bool unseen = degenerate || is_degenerate(icp, config_.health);
   result.covariance =
-      pose_covariance_.of(icp, degenerate, acceleration, static_cast<double>(span.end_s - span.begin_s), uneven);
+      pose_covariance_.of(icp, unseen, acceleration, static_cast<double>(span.end_s - span.begin_s), uneven);
+  const double periods = std::max(1.0, std::round(periods_since_trusted()));
   // What is expected of the motion depends on what this sweep saw, not on what those before did.
-  const Eigen::Vector3d step = tracker_.accept(icp, motion, is_degenerate(icp, config_.health));
+  const Eigen::Vector3d step = tracker_.accept(icp, motion, is_degenerate(icp, config_.health)) / periods;
 
   if (map_.sweeps() >= 2) {
     threshold_.update(registration.T_init, tracker_.state().T_odom_lidar, step - last_step_);
@@ -323,7 +327,7 @@ bool Pipeline::after_gap() const { return periods_since_trusted() - judge_.lost_
 
 std::optional<Reach> Pipeline::reach() const {
   // Where a sweep was not found there, it may lie elsewhere: the clock may have been set forward.
-  const bool known = established() && !tracker_.lost() && config_.initial_pose.restarts;
+  const bool known = established() && !tracker_.lost();
   return known && after_gap() ? std::optional(tracker_.reach()) : std::nullopt;
 }
 

@@ -35,8 +35,11 @@ struct RegisteredSource {
   const TimedCloud& source;
   const MotionState& state;
   double sigma_th_m = 0;  ///< scale of the weights
-  double gate_m = 0;      ///< larger residuals are skipped
+  const AdaptiveIcpConfig& config;
   std::size_t stride = 1;
+
+  /// Larger residuals are skipped.
+  double gate_m() const { return config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m; }
 
   std::size_t used() const { return (source.size() + stride - 1) / stride; }
 };
@@ -47,6 +50,8 @@ void for_each_residual(const RegisteredSource& sweep, const LocalMap& map, const
   const Eigen::Matrix3d R = sweep.state.T_odom_lidar.linear();
   const Eigen::Vector3d t = sweep.state.T_odom_lidar.translation();
   const double sigma2 = sweep.sigma_th_m * sweep.sigma_th_m;
+  const double gate_m = sweep.gate_m();
+  const bool adaptive = sweep.config.adaptive;
   const SweepMotion motion = SweepMotion::during(sweep.source, sweep.state.motion());
   for_fixed_chunks(sweep.used(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     const auto point_at = [&](std::size_t k) { return motion.compensated(sweep.source, k * sweep.stride); };
@@ -54,8 +59,9 @@ void for_each_residual(const RegisteredSource& sweep, const LocalMap& map, const
     map.visit(begin, end, world_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
       const MapPlane plane = spot.grid->plane_at(spot);
       const double e = plane.normal.dot(world - plane.point);
-      if (std::abs(e) <= sweep.gate_m) {
-        const double weight = static_cast<double>(plane.weight) * sigma2 / (sigma2 + e * e);
+      if (std::abs(e) <= gate_m) {
+        const auto of_plane = static_cast<double>(plane.weight);
+        const double weight = adaptive ? of_plane * sigma2 / (sigma2 + e * e) : of_plane;
         use(chunk, PlaneResidual{k * sweep.stride, point_at(k), world, spot, plane, e, weight});
       }
     });

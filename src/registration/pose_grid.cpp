@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include "cloud/fixed_chunks.hpp"
 #include "registration/map_score.hpp"
@@ -68,6 +69,13 @@ class Nodes {
     return middles;
   }
 
+  /// Within two steps along each axis, the shorter way round.
+  bool near_one_another(const Node& a, const Node& b) const {
+    const double yaws_apart = std::abs(a.yaw - b.yaw);
+    const double all_round = 2.0 * std::numbers::pi / grid_.yaw_step_rad;
+    return std::min(yaws_apart, all_round - yaws_apart) <= 2.0 && std::abs(a.x - b.x) <= 2 && std::abs(a.y - b.y) <= 2;
+  }
+
   /// All nodes of some blocks.
   std::vector<Node> within(const std::vector<Node>& middles) const {
     std::vector<Node> nodes;
@@ -99,10 +107,6 @@ class Nodes {
   int shifts_;
   int yaws_;
 };
-
-bool near_one_another(const Node& a, const Node& b) {
-  return std::abs(a.yaw - b.yaw) <= 2 && std::abs(a.x - b.x) <= 2 && std::abs(a.y - b.y) <= 2;
-}
 
 void keep_best(std::vector<Node>& nodes) {
   nodes.resize(std::max(nodes.size() / kSurvivors, std::min(nodes.size(), kLeastSurvivors)));
@@ -172,7 +176,7 @@ std::vector<SE3> search_poses(const std::vector<Eigen::Vector3f>& points, const 
     if (chosen.size() == keep || node.score == kNotScored) {
       break;
     }
-    if (std::none_of(chosen.begin(), chosen.end(), [&](const Node& c) { return near_one_another(c, node); })) {
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const Node& c) { return all.near_one_another(c, node); })) {
       chosen.push_back(node);
     }
   }

@@ -53,20 +53,19 @@ Vector6d uneven_motion(const TimedCloud& source, const LocalMap& map, const IcpR
   if (!source.timed()) {
     return Vector6d::Zero();
   }
-  const auto [earliest, latest] = std::minmax_element(source.offsets_s.begin(), source.offsets_s.end());
-  const float first_s = *earliest;
-  const float span_s = *latest - first_s;
+  const SweepSpan span = SweepSpan::of(source);
+  const float span_s = span.end_s - span.begin_s;
   if (!(span_s > 0.0F)) {
     return Vector6d::Zero();
   }
   const Eigen::Matrix3d to_sensor = icp.state.T_odom_lidar.linear().transpose();
   const Eigen::Vector3d t = icp.state.T_odom_lidar.translation();
-  const RegisteredSource sweep{source, icp.state, sigma_th_m, config.gate * sigma_th_m, stride};
+  const RegisteredSource sweep{source, icp.state, sigma_th_m, config, stride};
   const auto stretches = sum_of_residuals<Stretches>(sweep, map, [&](Stretches& sums, const PlaneResidual& residual) {
     Vector6d J;  // of the sensor's own axes
     const Eigen::Vector3d normal = to_sensor * residual.plane.normal;
     J << (to_sensor * (residual.world - t)).cross(normal), normal;
-    const float place = (source.offsets_s[residual.index] - first_s) / span_s;
+    const float place = (source.offsets_s[residual.index] - span.begin_s) / span_s;
     const auto stretch = static_cast<std::size_t>(place * static_cast<float>(kStretches));
     sums[std::min(stretch, kStretches - 1)].add(J, residual.distance_m, residual.weight);
   });

@@ -58,6 +58,19 @@ TEST(PipelineLearning, ASteadyAccelerationDoesNotWeighLess) {
   }
 }
 
+// Two sweeps are missing: the step is three times as long, and the motion as steady.
+TEST(PipelineLearning, AGapDoesNotWeighLess) {
+  Odometry odometry({});
+  for (const std::int64_t i : {0, 1, 2, 3, 4, 7, 8, 9}) {
+    const SweepResult result = odometry.register_sweep(
+        seen(make_box_room({9.3, 7.1, 3.3}, sampling_at(0.3 * static_cast<double>(i) - 1.5, 0.0, i)), i));
+    if (i >= 4) {
+      EXPECT_EQ(result.status, OdometryStatus::kOk) << i;
+      EXPECT_GT(result.stats.gamma, 0.98) << i;
+    }
+  }
+}
+
 // Along the corridor nothing is seen, so that it is not vouched for; across it is where it was found.
 TEST(PipelineLearning, AMapThatBeginsWithALostSecondSweepBeginsWhereThatWasFound) {
   Odometry odometry({});

@@ -35,6 +35,20 @@ TEST(SearchPoses, FindsAKnownShiftAndTurn) {
   }
 }
 
+TEST(SearchPoses, AFullTurnClosesTheCircle) {
+  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
+  const SE3 turned = se3_exp(twist(0, 0, 3.13, 0, 0, 0));
+  const auto points = test::seen_from(turned, test::rimless_room(0.6, 0.3, 1.2));
+  const auto best = search_poses(points, map, SE3::Identity(), {0.5, 0.5, 3.1, 0.1}, 0.2, 4);
+  ASSERT_EQ(best.size(), 4U);
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_TRUE(test::distance_m(best[i], best[k]) > 0.9 || test::angle_deg(best[i], best[k]) > 11.0)
+          << i << " " << k;
+    }
+  }
+}
+
 TEST(SearchPoses, ReachesTheRim) {
   const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
   for (const auto& [steps, x, y] : {std::array{10, 8, 6}, std::array{16, -11, 11}, std::array{13, 5, -12}}) {

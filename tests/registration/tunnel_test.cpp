@@ -149,14 +149,19 @@ TEST(Tunnel, APlaneOfAnUnreliableNormalWeighsLess) {
     const double weight = static_cast<double>(plane.weight) * kScaleM * kScaleM / (kScaleM * kScaleM + e * e);
     const TimedCloud one{{p}, {}};
     EXPECT_NEAR(linearise(one, scene.map, {}, kScaleM, {}).weight, weight, 1e-5);
-    const auto weight_within = [&](double gate_m) {
+    const auto weight_within = [&](double gate_m, bool adaptive) {
+      AdaptiveIcpConfig config;
+      config.adaptive = adaptive;
+      (adaptive ? config.gate : config.fixed_gate_m) = adaptive ? gate_m / kScaleM : gate_m;
       double found = 0.0;
-      for_each_residual({one, {}, kScaleM, gate_m}, scene.map,
+      for_each_residual({one, {}, kScaleM, config}, scene.map,
                         [&](std::size_t, const PlaneResidual& residual) { found = residual.weight; });
       return found;
     };
-    EXPECT_NEAR(weight_within(1.01 * std::abs(e)), weight, 1e-5);
-    EXPECT_EQ(weight_within(0.99 * std::abs(e)), 0.0) << "beyond the gate";
+    EXPECT_NEAR(weight_within(1.01 * std::abs(e), true), weight, 1e-5);
+    EXPECT_EQ(weight_within(0.99 * std::abs(e), true), 0.0) << "beyond the gate";
+    EXPECT_NEAR(weight_within(1.01 * std::abs(e), false), static_cast<double>(plane.weight), 1e-5);
+    EXPECT_EQ(weight_within(0.99 * std::abs(e), false), 0.0) << "beyond the gate";
   }
   EXPECT_EQ(checked, 20);
 }

@@ -258,7 +258,9 @@ int bench_command(const CLI::App& command, BenchFlags& flags) {
     }
     return run_jobs(flags, paper_jobs(flags, name == "kitti" ? PaperTables::kKitti : PaperTables::kM2dgr));
   }
-  if (flags.plan.empty()) throw RunError(RunErrorKind::kUsage, "bench: FILE is required. See: rilo bench --help");
+  if (flags.plan.empty())
+    throw RunError(RunErrorKind::kUsage,
+                   "bench: FILE is required: it names the configurations, also with --data. See: rilo bench --help");
   return run_jobs(flags, plan_jobs(flags));
 }
 

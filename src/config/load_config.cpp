@@ -55,6 +55,9 @@ class Loader {
   void load(const YAML::Node& root) {
     if (root.IsNull()) return;
     if (!root.IsMap()) refuse(root, kind_of(root), "a map of keys");
+    if (root["elevation_offset_deg"]) {
+      throw ConfigError({file_, "", "the calibration of a sensor", "a configuration", "It goes with --calibration"});
+    }
     load_map(root, "");
   }
 

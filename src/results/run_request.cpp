@@ -10,7 +10,7 @@ void check_point_times(const SourceRequest& request, const Sweep& sweep, const s
   if (!request.times_needed || !sweep.times_s.empty() || sweep.points.empty()) return;
   throw RunError(RunErrorKind::kBadData, name +
                                              ": no per-point times; expected them because of --point-times data. Take "
-                                             "auto, azimuth or none, or name the field with --time-field");
+                                             "auto, order, azimuth or none, or name the field with --time-field");
 }
 
 OpenSource source_of(const RunRequest& request) {

@@ -1,6 +1,7 @@
 #include "rilo/session/session.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <system_error>
@@ -202,10 +203,26 @@ class Session::Impl {
 
   // About the whole run.
   void give_last_warnings() {
-    const std::string maps = further_maps(result_.results, result_.indices);
-    if (maps.empty()) return;
-    result_.source.warnings.push_back(maps);
-    for (SessionObserver* observer : observers_) observer->on_warning(maps);
+    for (const std::string& warning : {further_maps(result_.results, result_.indices), dropped_calibration()}) {
+      if (warning.empty()) continue;
+      result_.source.warnings.push_back(warning);
+      for (SessionObserver* observer : observers_) observer->on_warning(warning);
+    }
+  }
+
+  // What was told and what the sweeps say are averaged, unless they contradict each other: an average lies nearer.
+  std::string dropped_calibration() const {
+    if (!options_.calibration) return "";
+    const AngleEstimate& told = options_.calibration->elevation_estimate;
+    const AngleEstimate& found = result_.learnt.elevation_estimate;
+    const double far_rad = options_.config.elevation.significance * told.sigma_rad;
+    if (!std::isfinite(told.sigma_rad) || !(std::abs(found.rad - told.rad) > far_rad)) return "";
+    return fmt::format(
+        "{}: its elevation offset, {:+.3f} ± {:.3f} deg, contradicts this recording, {:+.3f} ± {:.3f} deg, and does "
+        "not "
+        "count: of another unit, or of before a repair?",
+        name_of(*options_.calibration), kDegPerRad * told.rad, kDegPerRad * told.sigma_rad, kDegPerRad * found.rad,
+        kDegPerRad * found.sigma_rad);
   }
 
   std::string nothing_to_run() const {

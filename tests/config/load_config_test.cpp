@@ -152,6 +152,11 @@ TEST(LoadConfig, values_that_contradict_each_other_are_refused) {
   EXPECT_EQ(override_message({"map.max_points=4", "map.min_points=3"}), "accepted");
 }
 
+TEST(LoadConfig, a_calibration_is_no_configuration) {
+  EXPECT_THAT(config_message("recordings: []\nelevation_offset_deg: 0\nbeams: []\n"),
+              AllOf(HasSubstr("the calibration of a sensor"), HasSubstr("--calibration")));
+}
+
 TEST(LoadConfig, text_that_is_no_yaml_or_more_than_one_document_is_refused_with_its_place) {
   EXPECT_THAT(config_message("icp: {gate: 3\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(config_message("a: b: c"), AllOf(HasSubstr("my.yaml"), HasSubstr("line 1")));

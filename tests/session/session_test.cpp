@@ -120,6 +120,24 @@ TEST(Session, SecondPassBeginsWithWhatTheFirstSaysAboutTheSensor) {
   EXPECT_EQ(poses(again), poses(two));
 }
 
+TEST(Session, ACalibrationThatTheSweepsContradictIsNamed) {
+  for (const bool contradicts : {false, true}) {
+    SessionOptions options;
+    options.one_pass = true;
+    options.calibration = SensorAngles{};
+    options.calibration->name = "old.yaml";
+    options.calibration->elevation_estimate = {kRadPerDeg * (contradicts ? 1.0 : 0.1), kRadPerDeg * 0.1};
+    Session session(open_drive, options);
+    Log log;
+    session.add(log);
+    const SessionResult run = session.run();
+    ASSERT_EQ(run.failure, nullptr);
+    const auto named = testing::Contains(testing::StartsWith("old.yaml: its elevation offset, +1.000 ± 0.100 deg"));
+    EXPECT_EQ(contradicts, testing::Matches(named)(log.warnings));
+    EXPECT_EQ(contradicts, testing::Matches(named)(run.source.warnings));
+  }
+}
+
 TEST(Session, NothingLearntIsNoReasonToStartOver) {
   SessionOptions options;
   options.config.elevation.enabled = false;

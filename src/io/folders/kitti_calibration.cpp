@@ -14,7 +14,7 @@ namespace {
 std::optional<Eigen::Matrix3d> rotation_of(const std::vector<double>& rows) {
   constexpr double kMostOff = 1e-3;
   if (rows.size() != 9) return std::nullopt;
-  const Eigen::Matrix3d R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
+  Eigen::Matrix3d R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
   const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!R.allFinite() || off >= kMostOff || R.determinant() < 0) return std::nullopt;
   return R;

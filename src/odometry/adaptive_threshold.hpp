@@ -18,7 +18,8 @@ class AdaptiveThreshold {
 
   /// Learns from a registered sweep.
   /// @param T_init,T_new initial and registered pose.
-  /// @param acceleration change of the displacement per sweep against the sweep before (m per sweep²).
+  /// @param acceleration change of the displacement since the last accepted sweep against the one before (m); missing
+  /// sweeps in between make it longer.
   void update(const SE3& T_init, const SE3& T_new, const Eigen::Vector3d& acceleration);
 
   /// After a sweep that could not be registered the threshold grows, so that the next one may find its way back.

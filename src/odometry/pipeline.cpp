@@ -1,7 +1,6 @@
 #include "odometry/pipeline.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -219,9 +218,8 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   const bool unseen = degenerate || is_degenerate(icp, config_.health);
   result.covariance =
       pose_covariance_.of(icp, unseen, acceleration, static_cast<double>(span.end_s - span.begin_s), uneven);
-  const double periods = std::max(1.0, std::round(periods_since_trusted()));
   // What is expected of the motion depends on what this sweep saw, not on what those before did.
-  const Eigen::Vector3d step = tracker_.accept(icp, motion, is_degenerate(icp, config_.health)) / periods;
+  const Eigen::Vector3d step = tracker_.accept(icp, motion, is_degenerate(icp, config_.health));
 
   if (map_.sweeps() >= 2) {
     threshold_.update(registration.T_init, tracker_.state().T_odom_lidar, step - last_step_);

@@ -45,8 +45,8 @@ struct QualityRun {
 };
 
 constexpr const char* kQualityFooter =
-    R"(DATA as for rilo run, read with the same options. POSES: of the LiDAR, KITTI form (12 numbers a line) or TUM form
-(t x y z qx qy qz qw), detected from the first line; at the middle of the sweep, as rilo's are. Sweeps with per-point
+    R"(DATA as for rilo run, read with the same options. POSES: of the LiDAR, KITTI form (12 numbers a line), TUM form
+(t x y z qx qy qz qw) or EuRoC form (ns,x,y,z,qw,qx,qy,qz), detected from the first line; at the middle of the sweep, as rilo's are. Sweeps with per-point
 times are motion-compensated with the velocity between the neighbouring poses (--point-times none: they are already).
 Smaller is sharper. Compare trajectories on the same sweeps with the same options; below about 1 % it is noise. Wrong
 poses lose planes, the thick ones first: distances to the planes compare at about equal shares of planar places only,

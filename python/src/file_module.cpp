@@ -31,10 +31,12 @@ void write_poses(const std::filesystem::path& path, const py::object& poses, con
 
 py::object read_poses(const std::filesystem::path& path, const std::string& format) {
   if (format == "kitti") return pose_array(read_kitti_poses(path));
-  if (format != "tum") throw py::value_error("format: got '" + format + "'; expected tum or kitti");
+  if (format != "tum" && format != "euroc") {
+    throw py::value_error("format: got '" + format + "'; expected tum, kitti or euroc");
+  }
   std::vector<std::int64_t> stamps;
   std::vector<SE3> poses;
-  for (const StampedPose& pose : read_tum(path)) {
+  for (const StampedPose& pose : format == "tum" ? read_tum(path) : read_euroc(path)) {
     stamps.push_back(pose.stamp_ns);
     poses.push_back(pose.T_odom_lidar);
   }
@@ -49,7 +51,8 @@ void add_files(py::module_& module) {
              py::arg("format") = "tum",
              "Writes poses (N, 4, 4) as tum or euroc (with stamps_ns, (N,) int64) or kitti. Raises IoError.");
   module.def("read_poses", read_poses, py::arg("path"), py::arg("format") = "tum",
-             "Reads (stamps_ns, poses) of a tum file, or the poses (N, 4, 4) of a kitti file. Raises IoError with line "
+             "Reads (stamps_ns, poses) of a tum or euroc file, or the poses (N, 4, 4) of a kitti file. Raises IoError "
+             "with line "
              "and column.");
   module.def(
       "write_map",

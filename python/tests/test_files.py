@@ -19,6 +19,8 @@ def test_poses_and_maps_go_to_files_and_back(tmp_path, run):
     assert np.abs(rilo.read_poses(tmp_path / "k.txt", "kitti") - poses).max() < 1e-9
     rilo.write_poses(tmp_path / "e.csv", poses, stamps, "euroc")
     assert len((tmp_path / "e.csv").read_text().splitlines()) == SWEEPS + 1
+    stamps_read, poses_read = rilo.read_poses(tmp_path / "e.csv", "euroc")
+    assert np.array_equal(stamps_read, stamps) and np.abs(poses_read - poses).max() < 1e-8
     with pytest.raises(ValueError, match="stamps_ns: needed for format tum"):
         rilo.write_poses(tmp_path / "b.txt", poses)
     with pytest.raises(ValueError, match=r"stamps_ns: got shape \(3,\), int64; expected shape \(12,\)"):

@@ -25,15 +25,15 @@ constexpr const char* kGivePoses = "Give a pose file, of the results of a run tr
 constexpr std::size_t kKittiNumbers = 12;
 constexpr std::size_t kTumNumbers = 8;
 
-/// Words on the first line that is neither blank nor a comment; 0 when there is none within the first 64 KiB.
-std::size_t words_of_first_line(const std::filesystem::path& file) {
+/// The first line that is neither blank nor a comment; empty when there is none within the first 64 KiB.
+std::string first_line(const std::filesystem::path& file) {
   const detail::FileBytes start = detail::read_file(file, std::size_t{1} << 16);
   detail::LineScanner lines(start.view());
   while (const auto line = lines.next()) {
     const auto words = detail::words_of(*line);
-    if (!words.empty() && words[0][0] != '#') return words.size();
+    if (!words.empty() && words[0][0] != '#') return std::string(*line);
   }
-  return 0;
+  return "";
 }
 
 PoseFile without_stamps(const std::filesystem::path& file, const std::vector<SE3>& poses) {
@@ -135,12 +135,15 @@ PoseFile read_poses(const std::filesystem::path& file) {
     const bool of_run = detail::is_file(poses);
     throw IoError({file, "", "a folder", "a pose file", of_run ? "Give " + poses.string() : kGivePoses});
   }
-  const std::size_t count = detail::is_file(file) ? words_of_first_line(file) : kKittiNumbers;
+  if (!detail::is_file(file)) return without_stamps(file, read_kitti_poses(file));
+  const std::string line = first_line(file);
+  if (line.find(',') != std::string::npos) return {file, read_euroc(file), true, {}, {}};
+  const std::size_t count = detail::words_of(line).size();
   if (count == kTumNumbers) return {file, read_tum(file), true, {}, {}};
   if (count == kKittiNumbers) return without_stamps(file, read_kitti_poses(file));
-  if (count == 0) throw IoError({file, "", "no pose", "a pose file, KITTI or TUM form", "Check the path"});
-  throw IoError(
-      {file, "first line", detail::counted(count, "word"), "12 numbers (KITTI form) or 8 (TUM form)", kGivePoses});
+  if (count == 0) throw IoError({file, "", "no pose", "a pose file, KITTI, TUM or EuRoC form", "Check the path"});
+  throw IoError({file, "first line", detail::counted(count, "word"),
+                 "12 numbers (KITTI form), 8 (TUM form), or 8 with commas (EuRoC form)", kGivePoses});
 }
 
 PoseFile read_truth(const std::filesystem::path& path, PoseInstant instant) {

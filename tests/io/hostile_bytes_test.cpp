@@ -46,6 +46,8 @@ std::vector<Example> examples() {
                  [](const auto& f) { return read_kitti_poses(f).size(); }});
   all.push_back({"tum", true, [](const auto& f) { std::ofstream(f) << "1.5 1 2 3 0 0 0 1\n1.6 1 2 3 0 0 0 1\n"; },
                  [](const auto& f) { return read_tum(f).size(); }});
+  all.push_back({"euroc", true, [](const auto& f) { std::ofstream(f) << "15,1,2,3,1,0,0,0\n16,1,2,3,1,0,0,0\n"; },
+                 [](const auto& f) { return read_euroc(f).size(); }});
   all.push_back({"stamps", true, [](const auto& f) { std::ofstream(f) << "0.0\n1.0e-01\n2.0e-01\n"; },
                  [](const auto& f) { return read_stamps(f).size(); }});
   all.push_back({"calib", true, [](const auto& f) { std::ofstream(f) << "P0: 1 2\nTr: 1 0 0 0 0 1 0 0 0 0 1 0\n"; },

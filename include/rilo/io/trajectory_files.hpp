@@ -27,6 +27,9 @@ std::vector<SE3> read_growing_kitti_poses(const std::filesystem::path& file);
 /// @throws IoError with line and column: not 8 finite numbers, quaternion norm off by more than 1e-3.
 Trajectory read_tum(const std::filesystem::path& file);
 
+/// EuRoC form: `ns,x,y,z,qw,qx,qy,qz` a line, what follows is passed over. Otherwise as read_tum.
+Trajectory read_euroc(const std::filesystem::path& file);
+
 /// `Tr:` of a KITTI calib.txt: T_cam_lidar. Nothing when the file has no such line.
 /// @throws IoError when the file cannot be read or the line is malformed.
 std::optional<SE3> read_kitti_calibration(const std::filesystem::path& file);

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -13,7 +16,7 @@ namespace {
 
 constexpr double kRigidTolerance = 1e-3;
 constexpr std::size_t kPoseNumbers = 12;
-constexpr std::size_t kTumNumbers = 8;
+constexpr std::size_t kStampedNumbers = 8;
 
 // Walks through the lines that say something, and says where it is.
 class Table {
@@ -32,9 +35,9 @@ class Table {
     return std::nullopt;
   }
 
-  /// Exactly N finite numbers; the first `as_is` words stay text.
+  /// Exactly N finite numbers, or the first N of more; the first `as_is` words stay text.
   template <std::size_t N>
-  std::array<double, N> numbers(std::string_view line, std::size_t as_is = 0) const {
+  std::array<double, N> numbers(std::string_view line, std::size_t as_is = 0, bool more = false) const {
     std::array<double, N> values{};
     detail::WordScanner words(line);
     std::size_t count = 0;
@@ -44,7 +47,7 @@ class Table {
       if (!value || !std::isfinite(*value)) fail(words.column(), detail::in_quotes(*word), "a finite number");
       values[count] = *value;
     }
-    if (count != N) fail(0, detail::counted(count, "value"), std::to_string(N) + " numbers");
+    if (count < N || (count > N && !more)) fail(0, detail::counted(count, "value"), std::to_string(N) + " numbers");
     return values;
   }
 
@@ -77,6 +80,18 @@ SE3 to_pose(const Table& table, const std::array<double, kPoseNumbers>& values) 
   return pose;
 }
 
+StampedPose stamped_pose(const Table& table, std::int64_t stamp_ns, const Eigen::Vector3d& t,
+                         const Eigen::Quaterniond& q) {
+  if (std::abs(q.norm() - 1) > kRigidTolerance) {
+    table.fail(0, "a quaternion of norm " + std::to_string(q.norm()), "norm 1");
+  }
+  StampedPose pose;
+  pose.stamp_ns = stamp_ns;
+  pose.T_odom_lidar.linear() = q.normalized().toRotationMatrix();
+  pose.T_odom_lidar.translation() = t;
+  return pose;
+}
+
 std::vector<SE3> kitti_poses(const std::filesystem::path& file, bool whole_lines_only) {
   Table table(file, "Give a file of poses in KITTI form, one pose of 12 numbers a line", whole_lines_only);
   std::vector<SE3> poses;
@@ -94,20 +109,33 @@ Trajectory read_tum(const std::filesystem::path& file) {
   Table table(file, "Give a file of poses in TUM form, t x y z qx qy qz qw a line");
   Trajectory trajectory;
   while (const auto line = table.next()) {
-    const auto values = table.numbers<kTumNumbers>(*line, 1);
+    const auto values = table.numbers<kStampedNumbers>(*line, 1);
     detail::WordScanner words(*line);
     const std::string_view stamp_text = words.next().value_or("");
     const auto stamp = parse_stamp(stamp_text);
     if (!stamp) table.fail(words.column(), detail::in_quotes(stamp_text), "seconds that fit into 64 bits of ns");
     const Eigen::Quaterniond q(values[7], values[4], values[5], values[6]);
-    if (std::abs(q.norm() - 1) > kRigidTolerance) {
-      table.fail(0, "a quaternion of norm " + std::to_string(q.norm()), "norm 1");
+    trajectory.push_back(stamped_pose(table, *stamp, Eigen::Vector3d(values[1], values[2], values[3]), q));
+  }
+  return trajectory;
+}
+
+Trajectory read_euroc(const std::filesystem::path& file) {
+  Table table(file, "Give a file of poses in EuRoC form, ns,x,y,z,qw,qx,qy,qz a line");
+  Trajectory trajectory;
+  while (const auto line = table.next()) {
+    std::string spaced(*line);
+    std::replace(spaced.begin(), spaced.end(), ',', ' ');
+    const auto values = table.numbers<kStampedNumbers>(spaced, 1, true);  // velocities and biases may follow
+    detail::WordScanner words(spaced);
+    const std::string_view text = words.next().value_or("");
+    std::int64_t stamp_ns = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stamp_ns);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      table.fail(words.column(), detail::in_quotes(text), "a whole number of ns of 64 bits");
     }
-    StampedPose pose;
-    pose.stamp_ns = *stamp;
-    pose.T_odom_lidar.linear() = q.normalized().toRotationMatrix();
-    pose.T_odom_lidar.translation() = Eigen::Vector3d(values[1], values[2], values[3]);
-    trajectory.push_back(pose);
+    const Eigen::Quaterniond q(values[4], values[5], values[6], values[7]);
+    trajectory.push_back(stamped_pose(table, stamp_ns, Eigen::Vector3d(values[1], values[2], values[3]), q));
   }
   return trajectory;
 }

@@ -102,6 +102,39 @@ TEST(PoseFileTest, TumRoundTripKeepsStampsExactly) {
   }
 }
 
+TEST(PoseFileTest, EurocRoundTripKeepsStampsExactly) {
+  const TempDir folder;
+  const Trajectory trajectory = some_trajectory();
+  write_euroc(folder / "p.csv", trajectory);
+  const Trajectory read = read_euroc(folder / "p.csv");
+  ASSERT_EQ(read.size(), trajectory.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].stamp_ns, trajectory[i].stamp_ns);
+    EXPECT_LT((read[i].T_odom_lidar.matrix() - trajectory[i].T_odom_lidar.matrix()).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+// EuRoC's ground truth has velocities and biases behind the pose.
+TEST(PoseFileTest, OfEurocThePoseAloneIsTaken) {
+  const TempDir folder;
+  const auto file =
+      folder.write("data.csv", "#timestamp [ns], p, q, v\n1403636580838555648, 4,-1 ,0.5,0,0,0,1, 7,8,9\n");
+  const Trajectory read = read_euroc(file);
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read[0].stamp_ns, 1403636580838555648);
+  EXPECT_EQ(read[0].T_odom_lidar.translation(), Eigen::Vector3d(4, -1, 0.5));
+  EXPECT_TRUE((read[0].T_odom_lidar.linear() * Eigen::Vector3d::UnitX()).isApprox(-Eigen::Vector3d::UnitX()));
+  const auto fails = [&](const std::string& line, std::initializer_list<std::string_view> parts) {
+    const auto bad = folder.write("bad.csv", "1,0,0,0,1,0,0,0\n" + line);
+    expect_io_error([&] { read_euroc(bad); }, parts);
+  };
+  fails("1,0,0,0,1,0,0\n", {"line 2", "7 values", "8 numbers"});
+  fails("1.5,0,0,0,1,0,0,0\n", {"line 2, column 1", "'1.5'", "whole number of ns"});
+  fails("99999999999999999999,0,0,0,1,0,0,0\n", {"line 2, column 1"});
+  fails("1,0,x,0,1,0,0,0\n", {"line 2, column 5", "'x'"});
+  fails("1,0,0,0,1,1,0,0\n", {"line 2", "norm"});
+}
+
 TEST(PoseFileTest, TumOfAKnownPose) {
   const TempDir folder;
   StampedPose pose;

@@ -31,9 +31,10 @@ struct EvalFlags {
 
 constexpr const char* kEvalFooter =
     R"(GT is a pose file or a data folder with ground truth; EST is a pose file. KITTI form (12 numbers a line), TUM form
-(t x y z qx qy qz qw) or EuRoC form (ns,x,y,z,qw,qx,qy,qz) is detected from the first line. Both must be poses of the same sensor at the same time within the
-sweep: rilo's are at the middle (pose_instant in metrics.json); for a drive simulator's folder --instant chooses the
-truth. KITTI's own ground truth is in the camera frame: compare it with poses_camera.txt.
+(t x y z qx qy qz qw) or EuRoC form (ns,x,y,z,qw,qx,qy,qz) is detected from the first line. Both must be poses of the
+same sensor at the same time within the sweep: rilo's are at the middle (pose_instant in metrics.json); for a drive
+simulator's folder --instant chooses the truth. KITTI's own ground truth is in the camera frame: compare it with
+poses_camera.txt.
 
 Examples:
   rilo eval drive results/poses_lidar.txt

@@ -46,12 +46,12 @@ struct QualityRun {
 
 constexpr const char* kQualityFooter =
     R"(DATA as for rilo run, read with the same options. POSES: of the LiDAR, KITTI form (12 numbers a line), TUM form
-(t x y z qx qy qz qw) or EuRoC form (ns,x,y,z,qw,qx,qy,qz), detected from the first line; at the middle of the sweep, as rilo's are. Sweeps with per-point
-times are motion-compensated with the velocity between the neighbouring poses (--point-times none: they are already).
-Smaller is sharper. Compare trajectories on the same sweeps with the same options; below about 1 % it is noise. Wrong
-poses lose planes, the thick ones first: distances to the planes compare at about equal shares of planar places only,
-the mean over all places does not gain by a lost one. A path that is too short draws sweeps together: where many more
-places have enough neighbours, that is no merit.
+(t x y z qx qy qz qw) or EuRoC form (ns,x,y,z,qw,qx,qy,qz), detected from the first line; at the middle of the sweep,
+as rilo's are. Sweeps with per-point times are motion-compensated with the velocity between the neighbouring poses
+(--point-times none: they are already). Smaller is sharper. Compare trajectories on the same sweeps with the same
+options; below about 1 % it is noise. Wrong poses lose planes, the thick ones first: distances to the planes compare at
+about equal shares of planar places only, the mean over all places does not gain by a lost one. A path that is too short
+draws sweeps together: where many more places have enough neighbours, that is no merit.
 
 Examples:
   rilo quality kitti/sequences/00 results/00/poses_lidar.txt
@@ -62,8 +62,7 @@ std::optional<std::string> doubtful_pairs(const SweepPoses& poses, const std::op
   if (poses.by_stamp() || !sweeps || *sweeps == poses.size()) return std::nullopt;
   return fmt::format(
       "{} for {}, paired one after the other, which is wrong where the poses begin later (--start tells where) or lack "
-      "a "
-      "sweep (poses with stamps, as in trajectory.tum, tell which)",
+      "a sweep (poses with stamps, as in trajectory.tum, tell which)",
       counted(poses.size(), "pose"), counted(*sweeps, "sweep"));
 }
 

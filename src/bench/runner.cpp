@@ -268,9 +268,8 @@ void show_bench(const std::string& place, const BenchView& view) {
     const std::vector<BenchCell>& cells = output.bench.cells;
     std::cout << (view.paired ? paired_csv(cells) : bench_csv(cells, measured)).csv();
   } else {
-    if (view.paired && bench_comparisons(output.bench.cells).empty())
-      std::cerr << "rilo: note: there are no peers in it\n";
     const auto tables = view.paired ? paired_tables(output.bench.cells) : all_tables(output, measured);
+    if (tables.empty()) std::cerr << "rilo: note: there are no peers in it\n";
     std::cout << (view.format == "markdown" ? markdown_text(tables) : plain_text(tables));
   }
 }

@@ -1,5 +1,6 @@
 // Folders as data sets are published: KITTI odometry and the drive simulator, KITTI raw, MulRan.
 #include <array>
+#include <iterator>
 #include <optional>
 #include <string>
 
@@ -124,8 +125,6 @@ ScanListing list_mulran(const fs::path& folder, const fs::path& sweeps, const So
   return listing;
 }
 
-ScanListing list_plain_folder(const fs::path& folder, const SourceOptions& options);
-
 struct Layout {
   const char* sweeps;  // where they lie: what the layout is recognised by
   ScanListing (*list)(const fs::path& folder, const fs::path& sweeps, const SourceOptions& options);
@@ -146,9 +145,10 @@ fs::path data_set_around(const fs::path& folder) {
   std::error_code error;
   const fs::path whole = fs::canonical(folder, error);
   for (const Layout& layout : kLayouts) {
+    const fs::path sweeps = layout.sweeps;
     fs::path above = whole;
-    for (const auto& part : fs::path(layout.sweeps)) above = part.empty() ? above : above.parent_path();
-    if (error || above / layout.sweeps != whole) continue;
+    for (auto levels = std::distance(sweeps.begin(), sweeps.end()); levels > 0; --levels) above = above.parent_path();
+    if (error || above / sweeps != whole) continue;
     for (const char* more : {"calib.txt", "poses.txt", "times_pt", "oxts"}) {
       if (path_exists(above / more)) return above;
     }

@@ -12,7 +12,7 @@ namespace {
 constexpr int kKnots = 129;  // see SweepMotion for the error that is left
 
 /// Least and largest of the times; not empty. In lanes, which become vector instructions.
-SweepSpan span_of(const std::vector<float>& times_s) {
+TimeSpan extremes_of(const std::vector<float>& times_s) {
   constexpr std::size_t kLanes = 16;
   std::array<float, kLanes> least{};
   std::array<float, kLanes> most{};
@@ -33,11 +33,13 @@ SweepSpan span_of(const std::vector<float>& times_s) {
 }
 }  // namespace
 
-SweepSpan SweepSpan::of(const TimedCloud& cloud) { return cloud.timed() ? span_of(cloud.offsets_s) : SweepSpan{}; }
+TimeSpan span_of(const TimedCloud& cloud) {
+  return cloud.timed() ? extremes_of(cloud.offsets_s) : TimeSpan{0.0F, 0.0F};
+}
 
-SweepMotion::SweepMotion(const BodyMotion& motion, const SweepSpan& of) : begin_s_(of.begin_s) {
+SweepMotion::SweepMotion(const BodyMotion& motion, const TimeSpan& of) : begin_s_(of.begin_s) {
   const float begin_s = of.begin_s;
-  const float span = of.end_s - begin_s;
+  const float span = of.length_s();
   last_ = span > 0.0F ? kKnots - 1 : 0;
   inverse_step_ = span > 0.0F ? static_cast<float>(last_) / span : 0.0F;
   knots_.reserve(static_cast<std::size_t>(last_) + 1);

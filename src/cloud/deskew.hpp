@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "cloud/time_span.hpp"
 #include "cloud/timed_cloud.hpp"
 #include "rilo/geometry/se3.hpp"
 
@@ -18,12 +19,7 @@ struct BodyMotion {
 };
 
 /// From the first to the last offset of the points of a sweep; zero without times.
-struct SweepSpan {
-  float begin_s = 0.0F;
-  float end_s = 0.0F;
-
-  static SweepSpan of(const TimedCloud& cloud);
-};
+TimeSpan span_of(const TimedCloud& cloud);
 
 /// Motion of the sensor during a sweep at constant acceleration, tabulated: the exponential is evaluated at a fixed
 /// number of times, and the small remainder to a point's own time is of second order. The error is below a tenth of a
@@ -31,11 +27,9 @@ struct SweepSpan {
 class SweepMotion {
  public:
   /// `span`: of the offsets that will be asked for.
-  SweepMotion(const BodyMotion& motion, const SweepSpan& span);
+  SweepMotion(const BodyMotion& motion, const TimeSpan& span);
   /// Over the span of the cloud's offsets.
-  static SweepMotion during(const TimedCloud& cloud, const BodyMotion& motion) {
-    return {motion, SweepSpan::of(cloud)};
-  }
+  static SweepMotion during(const TimedCloud& cloud, const BodyMotion& motion) { return {motion, span_of(cloud)}; }
 
   /// Point `p` measured at `offset_s`, expressed in the sensor frame at the reference time (offset 0).
   Eigen::Vector3f compensate(const Eigen::Vector3f& p, float offset_s) const {

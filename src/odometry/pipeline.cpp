@@ -208,18 +208,16 @@ void Pipeline::accept(const PreparedSweep& prepared, Registration registration, 
   const bool degenerate = result.status == OdometryStatus::kDegenerate;
   const Vector6d uneven = uneven_motion(prepared.source, map_.map(), icp, registration.sigma_th_m, config_.icp,
                                         PoseCovariance::evidence_share(config_.icp), kSampleStride);
-  const SweepSpan span = SweepSpan::of(prepared.source);
   const double since_s = tracker_.since_trusted_s();
   Vector6d acceleration = Vector6d::Zero();
   if (since_s > 0.0) {
     acceleration = (icp.state.twist - twist_before) / since_s;
   }
-  // A sweep that was found again may be degenerate, too.
-  const bool unseen = degenerate || is_degenerate(icp, config_.health);
-  result.covariance =
-      pose_covariance_.of(icp, unseen, acceleration, static_cast<double>(span.end_s - span.begin_s), uneven);
-  // What is expected of the motion depends on what this sweep saw, not on what those before did.
-  const Eigen::Vector3d step = tracker_.accept(icp, motion, is_degenerate(icp, config_.health));
+  // What this sweep saw, whatever those before did; one that was found again may be degenerate, too.
+  const bool sees_too_little = is_degenerate(icp, config_.health);
+  const auto sweep_s = static_cast<double>(span_of(prepared.source).length_s());
+  result.covariance = pose_covariance_.of(icp, degenerate || sees_too_little, acceleration, sweep_s, uneven);
+  const Eigen::Vector3d step = tracker_.accept(icp, motion, sees_too_little);
 
   if (map_.sweeps() >= 2) {
     threshold_.update(registration.T_init, tracker_.state().T_odom_lidar, step - last_step_);

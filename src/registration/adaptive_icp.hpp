@@ -142,7 +142,7 @@ class PlaneMatches {
   std::vector<Match> matches_;      // of all points
   std::vector<PlaneSpot> spots_;    // where they are met
   std::vector<WiderNormal> wider_;  // of every kSparseStride-th point
-  std::optional<SweepSpan> span_;   // of the source
+  std::optional<TimeSpan> span_;    // of the source
   bool frozen_ = false;
   Matrix6d unconfirmed_ = Matrix6d::Zero();
 };

@@ -141,7 +141,7 @@ const Eigen::Vector3f& PlaneMatches::wider_normal(const LocalMap& map, std::size
 }
 
 void PlaneMatches::begin(const TimedCloud& source) {
-  span_ = SweepSpan::of(source);
+  span_ = span_of(source);
   matches_.resize(source.size());
   spots_.resize(source.size());
   wider_.resize(source.size() / kSparseStride + 1);

@@ -50,12 +50,8 @@ Vector6d scatter(const Stretches& stretches, double scale) {
 
 Vector6d uneven_motion(const TimedCloud& source, const LocalMap& map, const IcpResult& icp, double sigma_th_m,
                        const AdaptiveIcpConfig& config, double noise_share, std::size_t stride) {
-  if (!source.timed()) {
-    return Vector6d::Zero();
-  }
-  const SweepSpan span = SweepSpan::of(source);
-  const float span_s = span.end_s - span.begin_s;
-  if (!(span_s > 0.0F)) {
+  const TimeSpan span = span_of(source);
+  if (!(span.length_s() > 0.0F)) {
     return Vector6d::Zero();
   }
   const Eigen::Matrix3d to_sensor = icp.state.T_odom_lidar.linear().transpose();
@@ -65,7 +61,7 @@ Vector6d uneven_motion(const TimedCloud& source, const LocalMap& map, const IcpR
     Vector6d J;  // of the sensor's own axes
     const Eigen::Vector3d normal = to_sensor * residual.plane.normal;
     J << (to_sensor * (residual.world - t)).cross(normal), normal;
-    const float place = (source.offsets_s[residual.index] - span.begin_s) / span_s;
+    const float place = (source.offsets_s[residual.index] - span.begin_s) / span.length_s();
     const auto stretch = static_cast<std::size_t>(place * static_cast<float>(kStretches));
     sums[std::min(stretch, kStretches - 1)].add(J, residual.distance_m, residual.weight);
   });

@@ -36,7 +36,7 @@ TimedCloud near_points(const Sweep& sweep) {
     near.offsets_s.push_back(sweep.times_s[i]);
   }
   if (near.offsets_s.empty()) return near;
-  const float begin_s = SweepSpan::of(near).begin_s;
+  const float begin_s = span_of(near).begin_s;
   for (float& offset_s : near.offsets_s) offset_s -= begin_s;
   return near;
 }
@@ -67,7 +67,7 @@ ConeVerdict on_beam_cones(const Sweep& sweep, const Vector6d& twist) {
   const TimedCloud near = near_points(sweep);
   if (near.size() < kLeastPoints) return ConeVerdict::kNothing;
   const double as_read = sharpness_of(near.points);
-  const float span_s = SweepSpan::of(near).end_s;
+  const float span_s = span_of(near).end_s;
   double undone = 0;
   for (const float reference : {0.0F, 0.5F, 1.0F}) {
     undone = std::max(undone, sharpness_undone(near, reference * span_s, twist));

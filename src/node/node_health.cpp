@@ -74,7 +74,9 @@ void NodeHealth::note_source(const SourceFigures& info) {
 StatusMessage NodeHealth::report(const LiveQueueCounts& queue) {
   const std::lock_guard lock(mutex_);
   StatusMessage status;
-  silent_reports_ = queue.received == reported_queue_.received ? silent_reports_ + 1 : 0;
+  // Messages of another type are counted as bad and are in no queue.
+  const bool silent = queue.received == reported_queue_.received && bad_messages_ == reported_bad_messages_;
+  silent_reports_ = silent ? silent_reports_ + 1 : 0;
   judge(queue, status);
   add_counts(queue, status);
   reported_queue_ = queue;

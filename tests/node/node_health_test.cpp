@@ -106,5 +106,16 @@ TEST(NodeHealth, SilenceIsStale) {
   EXPECT_EQ(health.report({2, 0, 0}).level, NodeLevel::kOk);
 }
 
+// ROS 1 knows the type of a message when it comes: one of another type does not get into the queue.
+TEST(NodeHealth, MessagesOfAnotherTypeAreNoSilence) {
+  NodeHealth health;
+  for (int i = 0; i < 9; ++i) {
+    health.note_bad_message("of another type");
+    const StatusMessage report = health.report({});
+    EXPECT_EQ(report.level, NodeLevel::kError) << report.message;
+    EXPECT_THAT(report.message, HasSubstr("1 message that cannot be read"));
+  }
+}
+
 }  // namespace
 }  // namespace rilo

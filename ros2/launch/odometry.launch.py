@@ -51,18 +51,23 @@ ARGUMENTS = {
 }
 
 
-def node_parameters(given):
+def full_name(topic, namespace):
+    """As the node resolves it in a namespace that was pushed around this file: two robots have one each."""
+    return topic if topic.startswith("/") else "/" + "/".join(filter(None, [namespace.strip("/"), topic]))
+
+
+def node_parameters(given, namespace):
     values = {name: taken(given, name, kind) for name, (kind, _) in PARAMETERS.items() if given[name] != ""}
     if taken(given, "reliable", flag):
-        topic = given["points"] if given["points"].startswith("/") else "/" + given["points"]
+        topic = full_name(given["points"], namespace)
         values[f"qos_overrides.{topic}.subscription.reliability"] = "reliable"
         values[f"qos_overrides.{topic}.subscription.history"] = "keep_last"
         values[f"qos_overrides.{topic}.subscription.depth"] = 100
     return [given["parameters"], values]
 
 
-def odometry(given):
-    parameters, remappings = node_parameters(given), [("points", given["points"])]
+def odometry(given, namespace):
+    parameters, remappings = node_parameters(given, namespace), [("points", given["points"])]
     container = given["container"]
     if container == "":
         return Node(package="rilo_ros2", executable="rilo_node", name="rilo", output="screen",
@@ -84,7 +89,8 @@ def rviz():
 
 def actions(context):
     given = {name: context.launch_configurations[name] for name in (*PARAMETERS, *ARGUMENTS)}
-    return [odometry(given)] + ([rviz()] if taken(given, "rviz", flag) else [])
+    namespace = context.launch_configurations.get("ros_namespace", "")
+    return [odometry(given, namespace)] + ([rviz()] if taken(given, "rviz", flag) else [])
 
 
 def generate_launch_description():

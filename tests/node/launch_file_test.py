@@ -35,13 +35,14 @@ def load(file):
     return module
 
 
-def started(module, **given):
+def started(module, namespace=None, **given):
     *declared, function = module.generate_launch_description().values[0]
     defaults = {argument.values[0]: argument.default_value for argument in declared}
     assert len(defaults) == len(declared), "an argument twice"
     assert set(given) <= set(defaults), "no such argument"
     assert all(argument.description for argument in declared)
-    return function.function(SimpleNamespace(launch_configurations={**defaults, **given}))
+    pushed = {} if namespace is None else {"ros_namespace": namespace}
+    return function.function(SimpleNamespace(launch_configurations={**defaults, **given, **pushed}))
 
 
 def main():
@@ -71,6 +72,12 @@ def main():
         "queue": 0, "publish_tf": False, "base_frame": "base_link", "use_sim_time": True,
         overrides + "reliability": "reliable", overrides + "history": "keep_last", overrides + "depth": 100}
     assert viewer.arguments == ["-d", "/share/rilo_ros2/rviz/odometry.rviz"]
+
+    for namespace, points, topic in (("/robot", "lidar/points", "/robot/lidar/points"),
+                                     ("a/b", "points", "/a/b/points"),
+                                     ("/robot", "/points", "/points"), (None, "points", "/points")):
+        node, = started(module, namespace, points=points, reliable="true")
+        assert f"qos_overrides.{topic}.subscription.depth" in node.parameters[1], node.parameters[1]
 
     loaded, = started(module, container="/sensors")
     component, = loaded.composable_node_descriptions

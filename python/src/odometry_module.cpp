@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "arrays.hpp"
+#include "frame_times.hpp"
 #include "held.hpp"
 #include "modules.hpp"
 #include "notebook.hpp"
@@ -27,9 +28,7 @@ std::int64_t monotonic_ns() {
       .count();
 }
 
-// Step between sweeps without stamps.
-constexpr double kAssumedPeriodS = 0.1;
-constexpr std::int64_t kAssumedPeriodNs = 100'000'000;
+constexpr auto kAssumedPeriodNs = static_cast<std::int64_t>(kAssumedPeriodS * 1e9);
 
 RawTimes raw_times_of(const py::object& object, std::size_t points) {
   const py::array array = array_of(object, "timestamps");
@@ -119,17 +118,10 @@ class PythonOdometry {
     view.points = taken.values;
     view.stamp_ns = stamp.value_or(next_stamp_ns());
     if (!raw) return registered(view);
-    if (!decoder_ || *parsed != unit_) {
-      unit_ = *parsed;
-      PointTimeHints hints;
-      hints.unit = unit_;
-      hints.assumed_period_s = kAssumedPeriodS;
-      decoder_.emplace(hints);
-    }
     Sweep sweep;  // the decoder marks points without a time, so it has its own
     sweep.points.assign(taken.values.begin(), taken.values.end());
     sweep.stamp_ns = view.stamp_ns;
-    decoder_->decode(*raw, "register_frame", sweep);
+    frame_times_.decode(*raw, *parsed, stamp, sweep);
     if (stamp) sweep.stamp_ns = *stamp;
     return registered(sweep);
   }
@@ -157,7 +149,7 @@ class PythonOdometry {
  private:
   void forget_times() {
     last_stamp_ns_.reset();
-    decoder_.reset();
+    frame_times_.forget();
   }
 
   // With the odometry held, as registered().
@@ -172,8 +164,7 @@ class PythonOdometry {
   mutable std::mutex mutex_;  // for all that follows
   Odometry odometry_;
   std::optional<std::int64_t> last_stamp_ns_;
-  PointTimeUnit unit_ = PointTimeUnit::kInfer;
-  std::optional<PointTimeDecoder> decoder_;
+  FrameTimes frame_times_;
 };
 
 py::array_t<double> trajectory_of(const PythonOdometry& self) {

@@ -153,6 +153,31 @@ def test_register_frame_takes_the_drivers_timestamps(drive, run):
     assert np.abs(fractions.trajectory - expected).max() < 1e-4
 
 
+@pytest.mark.parametrize("began_s", [0.0, 0.4, 1.7, 2.3])
+@pytest.mark.parametrize("stamped_s", [None, 0.0, 0.1])
+def test_register_frame_takes_timestamps_of_a_clock_that_has_just_begun(drive, run, began_s, stamped_s):
+    """As simulated ones: the first sweep alone does not tell its times from those since the start of a sweep."""
+    odometry = rilo.Odometry()
+    for points, times, stamp, _ in drive:
+        of_clock = began_s + stamp * 1e-9 + times.astype(np.float64)
+        known = None if stamped_s is None else stamp + round((began_s + stamped_s) * 1e9)
+        odometry.register_frame(points, of_clock, known)
+    begins_ns = round((began_s + (stamped_s or 0)) * 1e9)
+    assert np.abs(odometry.stamps_ns - run[0].stamps_ns - begins_ns).max() < 1_000
+    assert np.abs(odometry.trajectory - run[0].trajectory).max() < 1e-3
+
+
+def test_register_frame_takes_the_parts_of_a_sweep(drive):
+    """They go on where the one before ended, too, but their stamp stays."""
+    points, times, _, _ = drive[0]
+    frames, sweeps = rilo.Odometry(), rilo.Odometry()
+    for part in times < 0.05, times >= 0.05:
+        frames.register_frame(points[part], times[part], 5_000_000_000)
+        sweeps.register(points[part], times[part], 5_000_000_000)
+    assert np.array_equal(frames.stamps_ns, sweeps.stamps_ns)
+    assert np.array_equal(frames.trajectory, sweeps.trajectory)
+
+
 def test_register_frame_without_timestamps_is_register(drive):
     one, other = rilo.Odometry(), rilo.Odometry()
     for i, (points, *_) in enumerate(drive[:3]):

@@ -121,6 +121,10 @@ void override_values(OdometryConfig& config, const std::vector<std::string>& ove
     }
     const std::string name = text.substr(0, equals);
     const ConfigKey* key = keys.find(name);
+    if (key == nullptr && keys.has_section(name)) {
+      throw ConfigError({place.file, "", quoted(name) + " is a section", "one of its keys, " + quoted(name + ".KEY"),
+                         "`rilo config --dump` lists all keys"});
+    }
     if (key == nullptr) refuse_key(keys, name, place);
     set_key(*key, text.substr(equals + 1), place);
   }

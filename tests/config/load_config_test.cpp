@@ -170,7 +170,7 @@ TEST(Overrides, the_last_one_wins_and_mistakes_name_the_option) {
   EXPECT_THAT(override_message({"voxel_size=3"}), HasSubstr("map.voxel_m"));
   EXPECT_THAT(override_message({"icp.foo=3"}), HasSubstr("Did you mean icp."));
   EXPECT_THAT(override_message({"=3"}), HasSubstr("unknown key"));
-  EXPECT_THAT(override_message({"icp=3"}), HasSubstr("unknown key"));
+  EXPECT_THAT(override_message({"icp=3"}), HasSubstr("\"icp\" is a section; expected one of its keys, \"icp.KEY\""));
   EXPECT_THAT(override_message({"icp.gat=3"}), HasSubstr("Did you mean icp.gate?"));
   EXPECT_THAT(override_message({"icp.gate="}), HasSubstr("icp.gate"));
   EXPECT_THAT(override_message({"icp.gate=nan"}), HasSubstr("a number from 0.1 to 100"));

@@ -14,13 +14,13 @@ std::size_t unlikeness(std::string_view wanted, std::string_view known) {
   return std::min(edit_distance(wanted, known), edit_distance(last_part(wanted), last_part(known)) + 1);
 }
 
+}  // namespace
+
 std::string_view without_expert(std::string_view name) {
   const std::size_t length = kExpertSection.size();
   const bool expert = name.starts_with(kExpertSection) && name.size() > length && name[length] == '.';
   return expert ? name.substr(length + 1) : name;
 }
-
-}  // namespace
 
 void ConfigKeys::add(const KeyInfo& key, ConfigKey::Binding binding) {
   ConfigSection& section = sections_.back();

@@ -162,13 +162,14 @@ NodeParameters::NodeParameters(NodeOptions& options) {
   add_keys(odometry_keys(options.config), ParameterChange::kAtReset);
 }
 
-const NodeParameter& NodeParameters::at(const std::string& name) const {
+const NodeParameter& NodeParameters::at(const std::string& given) const {
+  const std::string name(without_expert(given));
   const auto found = std::find_if(all_.begin(), all_.end(), [&](const auto& known) { return known.name() == name; });
   if (found != all_.end()) return *found;
   std::vector<std::string> names;
   for (const NodeParameter& known : all_) names.push_back(known.name());
   const std::string nearest = nearest_word(name, names);
-  refuse(name, "the name of a parameter" + (nearest.empty() ? nearest : ", perhaps " + nearest));
+  refuse(given, "the name of a parameter" + (nearest.empty() ? nearest : ", perhaps " + nearest));
 }
 
 NodeOptions node_options(const std::map<std::string, ParameterValue>& given) {
@@ -187,7 +188,11 @@ NodeOptions node_options(const std::map<std::string, ParameterValue>& given) {
 NodeOptions with_parameters(const NodeOptions& options, const std::map<std::string, ParameterValue>& changes) {
   NodeOptions changed = options;
   const NodeParameters parameters(changed);
-  for (const auto& [name, value] : changes) parameters.at(name).set(value);
+  for (const auto& [name, value] : changes) {
+    const NodeParameter& parameter = parameters.at(name);
+    if (parameter.name() != name && changes.count(parameter.name()) > 0) refuse(name, "each key once");
+    parameter.set(value);
+  }
   changed.odom_frame = frame_name(changed.odom_frame);
   changed.base_frame = frame_name(changed.base_frame);
   if (changed.odom_frame.empty()) refuse("odom_frame", "the name of a frame");

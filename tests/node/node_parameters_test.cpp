@@ -83,6 +83,15 @@ TEST(NodeParameters, SingleKeysCountMoreThanTheFile) {
   EXPECT_THROW(node_options({{"config", "nowhere.yaml"}}), IoError);
 }
 
+// `rosparam load` of what `rilo config --dump` writes gives them all.
+TEST(NodeParameters, KeysHaveTheNamesOfAFileToo) {
+  const NodeOptions options = node_options({{"expert.icp.gate", 3.5}, {"expert.map.voxel_m", 0.7}});
+  EXPECT_EQ(options.config.icp.gate, 3.5);
+  EXPECT_EQ(options.config.map.voxel_m, 0.7);
+  EXPECT_THAT(refusal([] { node_options({{"expert.icp.gate", 3.5}, {"icp.gate", 3.5}}); }), HasSubstr("once"));
+  EXPECT_THAT(refusal([] { node_options({{"expert.icp.gat", 3.5}}); }), HasSubstr("expert.icp.gat: expected"));
+}
+
 TEST(NodeParameters, TheCalibrationIsLoaded) {
   const TempDir folder;
   const std::string file =

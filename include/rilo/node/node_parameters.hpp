@@ -85,8 +85,9 @@ class NodeParameters {
 
   const std::vector<NodeParameter>& all() const { return all_; }
 
+  /// With or without "expert." before it, as in a file of the configuration.
   /// @throws std::invalid_argument when there is none of that name; the nearest one is named.
-  const NodeParameter& at(const std::string& name) const;
+  const NodeParameter& at(const std::string& given) const;
 
  private:
   std::vector<NodeParameter> all_;

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 #include <string>
+#include <unistd.h>
 
 #include "arrays.hpp"
 #include "held.hpp"
@@ -61,14 +62,21 @@ SourceOptions options_of(const std::string& topic, const std::filesystem::path& 
   return options;
 }
 
-/// Open data, until they are closed. Any thread may call it.
+/// Open data, until they are closed. Any thread may call it, of the process that opened them: a fork leaves the thread
+/// that reads ahead behind, and whoever waited for it would wait for ever.
 class PythonSource {
  public:
   explicit PythonSource(std::unique_ptr<ScanSource> source) : source_(std::move(source)) {}
+  ~PythonSource() {
+    if (is_forked()) static_cast<void>(source_.release());
+  }
+  PythonSource(const PythonSource&) = delete;
+  PythonSource& operator=(const PythonSource&) = delete;
 
   /// What `function` makes of the data, without Python's lock. @throws ValueError when they are closed.
   template <typename Function>
   auto with(const Function& function) const {
+    if (is_forked()) throw py::value_error("the ScanSource is another process's; open the data in this one");
     const Held held(mutex_);
     if (!source_) throw py::value_error("the ScanSource is closed");
     return function(*source_);
@@ -81,15 +89,20 @@ class PythonSource {
     return with([](const ScanSource& source) { return source.size(); });
   }
   bool closed() const {
+    if (is_forked()) return true;
     const Held held(mutex_);
     return source_ == nullptr;
   }
   void close() {
+    if (is_forked()) return;
     const Held held(mutex_);
     source_.reset();
   }
 
  private:
+  bool is_forked() const { return getpid() != process_; }
+
+  pid_t process_ = getpid();
   mutable std::mutex mutex_;
   std::unique_ptr<ScanSource> source_;
 };

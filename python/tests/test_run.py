@@ -40,6 +40,26 @@ def test_the_command_gives_the_same_bits(tmp_path, recording):
     assert np.array_equal(run.trajectory, odometry.trajectory) and np.array_equal(run.stamps_ns, odometry.stamps_ns)
 
 
+def test_a_fork_does_not_wait_for_the_reader_of_its_parent(recording):
+    source = rilo.open(recording)
+    next(source)
+    child = os.fork()
+    if child == 0:
+        signal.alarm(20)
+        good = False
+        try:
+            with pytest.raises(ValueError, match="another process"):
+                next(source)
+            assert "closed" in repr(source)
+            source.close()
+            del source
+            good = len(list(rilo.open(recording))) > 1
+        finally:
+            os._exit(0 if good else 1)
+    assert os.waitpid(child, 0)[1] == 0
+    assert len(list(source)) > 1
+
+
 def test_a_run_is_observed(recording, capfd):
     seen = []
     run = rilo.run(recording, count=4, start=2, map_voxel_m=1, one_pass=True, progress=True,

@@ -17,6 +17,11 @@ bool holds(const py::array& array) {
   return py::isinstance<py::array_t<Scalar>>(array);  // native byte order, too
 }
 
+/// Whether some elements are marked as invalid. What lies there would be taken for numbers.
+bool is_masked(const py::object& object) {
+  return py::hasattr(object, "filled") && py::module_::import("numpy.ma").attr("is_masked")(object).cast<bool>();
+}
+
 /// Element (row, column) in any numpy layout; column 0 of a flat array.
 template <typename Scalar>
 Scalar element(const py::array& array, py::ssize_t row, py::ssize_t column) {
@@ -110,7 +115,10 @@ py::array array_of(const py::object& object, const char* name) {
   py::array array = py::array::ensure(object);
   if (!array) {
     PyErr_Clear();
-    throw py::value_error(std::string(name) + ": got " + description_of(object) + "; expected a numpy array");
+    reject(name, "a numpy array", object);
+  }
+  if (is_masked(object)) {
+    reject(name, "no masked elements", array, "Of points without a measurement: points.filled(np.nan)");
   }
   return array;
 }

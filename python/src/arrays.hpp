@@ -52,7 +52,8 @@ std::vector<SE3> poses_of(const py::object& object, const char* name);
 /// "shape (3, 100), int64", or the type of what is not an array.
 std::string description_of(const py::handle& object);
 
-/// `object` as numpy sees it, without a copy where it is an array. @throws ValueError when numpy makes none of it.
+/// `object` as numpy sees it, without a copy where it is an array. @throws ValueError when numpy makes none of it, and
+/// for masked elements.
 py::array array_of(const py::object& object, const char* name);
 
 /// An (N, 4, 4) array.

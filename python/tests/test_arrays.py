@@ -115,6 +115,19 @@ def test_layouts_types_and_columns_give_the_same_bits(drive, run):
         assert np.array_equal(odometry.trajectory, expected), name
 
 
+def test_masked_elements_are_no_numbers(drive):
+    points, times, stamp, _ = drive[0]
+    odometry = rilo.Odometry()
+    masked = np.ma.masked_greater(points, 20)
+    with pytest.raises(ValueError, match=r"points: got shape .*; expected no masked elements. .*points.filled\(np.nan\)"):
+        odometry.register(masked, times, stamp)
+    with pytest.raises(ValueError, match="times_s: got .*; expected no masked elements"):
+        odometry.register(points, np.ma.masked_less(times, 0.01), stamp)
+    assert len(odometry) == 0
+    odometry.register(masked.filled(np.nan), np.ma.masked_array(times), stamp)  # none is
+    assert len(odometry) == 1
+
+
 def test_rings_of_any_integer_type_are_the_same(drive):
     points, times, stamp, _ = drive[0]
     rings = np.arange(len(points)) % 16

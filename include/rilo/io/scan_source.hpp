@@ -25,7 +25,7 @@ struct StampFaults {
   std::size_t duplicates = 0;    ///< dropped: the same stamp and the same points as the one before
   std::size_t out_of_order = 0;  ///< dropped: older than a sweep before, by a second at most
   std::size_t repeated = 0;      ///< kept: the stamp of the one before, other points
-  std::size_t clock_jumps = 0;   ///< kept: older than a sweep before by more, the clock was set back
+  std::size_t clock_jumps = 0;   ///< kept: older by more, or the sixth older one in a row: the clock was set back
   std::size_t late = 0;          ///< kept: recorded more than a period later than the promptest one, see its stamp
   double most_late_s = 0;        ///< of those
 

@@ -112,15 +112,16 @@ std::vector<std::int64_t> integers_of(const py::array& array, const std::string&
 }
 
 py::array array_of(const py::object& object, const char* name) {
-  py::array array = py::array::ensure(object);
-  if (!array) {
-    PyErr_Clear();
-    reject(name, "a numpy array", object);
+  try {
+    py::array array(object);
+    if (is_masked(object)) {
+      reject(name, "no masked elements", array, "Of points without a measurement: points.filled(np.nan)");
+    }
+    return array;
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_Exception)) throw;  // Ctrl-C
+    reject(name, "a numpy array", object, py::str(error.value()).cast<std::string>());
   }
-  if (is_masked(object)) {
-    reject(name, "no masked elements", array, "Of points without a measurement: points.filled(np.nan)");
-  }
-  return array;
 }
 
 Column<Eigen::Vector3f> points_of(const py::object& object) {

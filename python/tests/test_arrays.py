@@ -115,6 +115,17 @@ def test_layouts_types_and_columns_give_the_same_bits(drive, run):
         assert np.array_equal(odometry.trajectory, expected), name
 
 
+def test_why_something_is_no_array_is_told():
+    class OnAnotherDevice:
+        def __array__(self, *_, **__):
+            raise TypeError("copy the tensor to host memory first")
+
+    with pytest.raises(ValueError, match="points: got an object of type OnAnotherDevice; .* copy the tensor to host"):
+        rilo.Odometry().register(OnAnotherDevice())
+    with pytest.raises(ValueError, match="points: got an object of type list; expected a numpy array"):
+        rilo.Odometry().register([[1, 2, 3], [1, 2]])
+
+
 def test_masked_elements_are_no_numbers(drive):
     points, times, stamp, _ = drive[0]
     odometry = rilo.Odometry()

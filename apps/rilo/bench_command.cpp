@@ -116,6 +116,13 @@ void leave_out_missing(const BenchFlags& flags, BenchPlan& plan) {
   plan.sequences = std::move(there);
 }
 
+// Those of the plan itself were checked with it.
+void check_peer_name(const BenchPlan& plan, const std::string& name, const std::string& origin) {
+  if (!has_configuration(plan, name)) return;
+  throw RunError(RunErrorKind::kUsage,
+                 origin + ": \"" + name + "\" is both a configuration and a peer; expected names that differ");
+}
+
 // Of the plan and of the command line, which goes before it.
 void add_peers(BenchFlags& flags, BenchPlan& plan) {
   std::vector<BenchPeer> peers;
@@ -126,6 +133,7 @@ void add_peers(BenchFlags& flags, BenchPlan& plan) {
                      "--peer " + text + ": expected NAME=FILE, {sequence} in it for a sequence's name");
     }
     peers.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    check_peer_name(plan, peers.back().name, "--peer " + text);
   }
   const auto named = [&](const std::string& name) {
     return std::any_of(peers.begin(), peers.end(), [&](const BenchPeer& peer) { return peer.name == name; });
@@ -137,6 +145,9 @@ void add_peers(BenchFlags& flags, BenchPlan& plan) {
   if (!flags.peer_figures.empty()) plan.peer_figures = flags.peer_figures;
   if (plan.peer_figures.empty()) return;
   flags.order.peer_figures = read_peer_figures(plan.peer_figures);
+  for (const BenchCell& cell : flags.order.peer_figures) {
+    check_peer_name(plan, cell.configuration, plan.peer_figures.string());
+  }
   if (flags.order.run.count > 0 && !flags.order.run.quiet) {
     std::cerr << "rilo: warning: " << plan.peer_figures.string()
               << ": its figures are of whole drives; with --count its times alone are used\n";

@@ -87,13 +87,10 @@ class PlanReader {
     if (!needed.empty() && seen.count(needed) == 0) refuse(map, what + " without " + needed, needed + ": in it");
   }
 
-  // Results are looked up by these names.
   void check_peer_names(const Node& root, const BenchPlan& plan) const {
     const auto check = [&](const std::vector<BenchPeer>& peers, const std::string& of) {
       for (const BenchPeer& peer : peers) {
-        const bool taken = std::any_of(plan.configurations.begin(), plan.configurations.end(),
-                                       [&](const BenchConfiguration& c) { return c.name == peer.name; });
-        if (taken) {
+        if (has_configuration(plan, peer.name)) {
           refuse(root, detail::quoted(peer.name) + " is both a configuration and a peer" + of, "names that differ");
         }
       }
@@ -264,6 +261,11 @@ BenchPlan parse_bench_plan(std::string_view yaml, const fs::path& file, const fs
   } catch (const YAML::Exception& error) {  // of nodes that yaml-cpp cannot make sense of
     throw ConfigError({file, position_of(error.mark), "not valid YAML (" + error.msg + ")", "a plan", kPlanHint});
   }
+}
+
+bool has_configuration(const BenchPlan& plan, const std::string& name) {
+  return std::any_of(plan.configurations.begin(), plan.configurations.end(),
+                     [&](const BenchConfiguration& configuration) { return configuration.name == name; });
 }
 
 void give_peers(BenchPlan& plan) {

@@ -58,6 +58,9 @@ struct BenchPlan {
   std::filesystem::path peer_figures;  ///< CSV of figures of peers; empty: none
 };
 
+/// Whether a configuration of the plan goes by that name, so that no peer may: results are looked up by these names.
+bool has_configuration(const BenchPlan& plan, const std::string& name);
+
 /// Gives every sequence those of `plan.peers` that it has not of its own.
 void give_peers(BenchPlan& plan);
 

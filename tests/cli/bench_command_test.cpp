@@ -177,6 +177,10 @@ TEST(BenchCommand, SetsGivenPosesAndFiguresBesideOurs) {
   rilo_fails(3, {"bench", plan, "--peer-figures", folder.write("no.csv", "drive,t_rel_pct\none,1\n")},
              {"no.csv", "no column peer"});
   rilo_fails(2, {"bench", plan, "--peer", "nothing"}, {"--peer nothing", "NAME=FILE"});
+  // By such a name a baseline and a report would take the one for the other.
+  rilo_fails(2, {"bench", plan, "--peer", "default=poses.txt"}, {"--peer default", "both a configuration and a peer"});
+  rilo_fails(2, {"bench", plan, "--peer-figures", folder.write("own.csv", "drive,peer,t_rel_pct\none,default,1\n")},
+             {"own.csv", "\"default\" is both a configuration and a peer"});
 }
 
 TEST(BenchCommand, DataAndRootOfTheCommandLine) {

@@ -10,6 +10,7 @@
 #include "console/interrupt.hpp"
 #include "console/text.hpp"
 #include "io/stamp_difference.hpp"
+#include "results/partial_poses.hpp"
 #include "results/run_metrics.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/io/trajectory_files.hpp"
@@ -77,7 +78,7 @@ void ProgressLine::on_end(const Odometry& /*odometry*/) { progress_.finish(); }
 
 PartialPoses::PartialPoses(const std::filesystem::path& folder) {
   if (folder.empty()) return;
-  file_ = folder / "poses_lidar.partial.txt";
+  file_ = folder / kPartialPoses;
   open();
 }
 
@@ -88,7 +89,8 @@ void PartialPoses::open() {
 
 void PartialPoses::on_registered(const RegisteredSweep& sweep) {
   if (file_.empty()) return;
-  const std::string line = kitti_line(sweep.result.T_odom_lidar);
+  const std::string line = partial_pose_line(sweep.result.T_odom_lidar, sweep.index, next_sweep_);
+  next_sweep_ = sweep.index + 1;
   stream_ << line << std::flush;
   if (stream_) {
     bytes_ += line.size();
@@ -104,6 +106,7 @@ void PartialPoses::on_restart(const Restart& /*restart*/) {
   if (file_.empty()) return;
   stream_.close();
   bytes_ = 0;
+  next_sweep_ = 0;
   open();
 }
 

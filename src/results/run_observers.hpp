@@ -47,8 +47,8 @@ class ProgressLine final : public SessionObserver {
   std::size_t done_ = 0;
 };
 
-/// `poses_lidar.partial.txt` in the output folder, KITTI form, one line per sweep, handed to the system immediately:
-/// even a run that is killed leaves a valid beginning. It goes away when the whole files are in place.
+/// `poses_lidar.partial.txt` in the output folder (partial_poses.hpp), one pose per sweep, handed to the system
+/// immediately: even a run that is killed leaves a valid beginning. It goes away when the whole files are in place.
 class PartialPoses final : public SessionObserver {
  public:
   /// An empty `folder`: nothing is written.
@@ -67,7 +67,8 @@ class PartialPoses final : public SessionObserver {
 
   std::filesystem::path file_;
   std::ofstream stream_;
-  std::uintmax_t bytes_ = 0;  // of complete lines
+  std::uintmax_t bytes_ = 0;    // of complete lines
+  std::size_t next_sweep_ = 0;  // the one after the last
 };
 
 /// Few enough points of the map for the report's picture.

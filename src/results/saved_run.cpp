@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "io/stamp_difference.hpp"
 #include "io/times/sweep_period.hpp"
 #include "results/metrics_json.hpp"
+#include "results/partial_poses.hpp"
 #include "results/sweep_table.hpp"
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/cloud_reader.hpp"
@@ -24,7 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMetrics = "metrics.json";
-constexpr const char* kPartial = "poses_lidar.partial.txt";
 constexpr const char* kAgain = "Run rilo run again";
 
 /// What an older version did not write is said to be unknown.
@@ -119,21 +120,22 @@ SavedRun read_killed_run(const fs::path& folder) {
   SavedRun run;
   run.folder = folder;
   run.killed = true;
-  for (const SE3& T : read_growing_kitti_poses(folder / kPartial)) {
+  PosesSoFar so_far = read_partial_poses(folder / kPartialPoses);
+  run.record.indices = std::move(so_far.sweeps);
+  for (const SE3& T : so_far.poses) {
     SweepResult result;
     result.T_odom_lidar = T;
-    run.record.indices.push_back(run.record.results.size());
     run.record.results.push_back(result);
   }
   run.notices.push_back(fmt::format("this run was killed or is still running: only {} is there, with its first {}",
-                                    kPartial, counted(run.record.results.size(), "pose")));
+                                    kPartialPoses, counted(run.record.results.size(), "pose")));
   return run;
 }
 
 }  // namespace
 
 bool is_saved_run(const fs::path& folder) {
-  return detail::is_file(folder / kMetrics) || detail::is_file(folder / kPartial);
+  return detail::is_file(folder / kMetrics) || detail::is_file(folder / kPartialPoses);
 }
 
 SavedRun read_saved_run(const fs::path& folder) {
@@ -160,9 +162,9 @@ SavedRun read_saved_run(const fs::path& folder) {
     run.record.source.T_cam_lidar = read_kitti_calibration(run.record.data / "calib.txt");
   }
   read_map(run);
-  if (detail::is_file(folder / kPartial)) {
+  if (detail::is_file(folder / kPartialPoses)) {
     run.notices.push_back(fmt::format(
-        "a later run into this folder was killed or is still running ({}); shown is the one before", kPartial));
+        "a later run into this folder was killed or is still running ({}); shown is the one before", kPartialPoses));
   }
   return run;
 }

@@ -119,6 +119,18 @@ TEST(InterruptedRun, AKilledRunLeavesAValidPrefix) {
   }
 }
 
+// A report compares them with the true poses of these sweeps, not of the first ones.
+TEST(InterruptedRun, AKilledRunSaysWhichSweepsItHas) {
+  const TempDir folder;
+  const auto out = folder / "killed";
+  CommandProcess run({"run", long_folder(folder, kMoreThanIsDone), "--start", "7", "--out", out, "--threads", "1"});
+  ASSERT_TRUE(run.wait_until([&] { return complete_lines(out / "poses_lidar.partial.txt") > kSweepsBefore; }));
+  run.send(SIGKILL);
+  run.wait();
+  EXPECT_TRUE(slurp(out / "poses_lidar.partial.txt").starts_with("# sweep 7\n1.0"));
+  EXPECT_GE(read_kitti_poses(out / "poses_lidar.partial.txt").size(), kSweepsBefore);
+}
+
 TEST(InterruptedRun, ASimulationStopsToo) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TempDir folder;

@@ -13,6 +13,7 @@
 #include "results/run_truth.hpp"
 #include "rilo/evaluation/pose_error.hpp"
 #include "rilo/io/io_error.hpp"
+#include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 
@@ -123,9 +124,16 @@ PairedPeer on_sweeps_of(const RunRecord& run, const ReportSequence& sequence, co
   return peer;
 }
 
+/// That of the data folder which was given for the truth.
+std::optional<SE3> camera_of(const fs::path& truth) {
+  const fs::path file = truth / "calib.txt";
+  return detail::is_folder(truth) && detail::is_file(file) ? read_kitti_calibration(file) : std::nullopt;
+}
+
 /// Without a run: against the given truth, or as they are.
 PairedPeer on_their_own(const ReportSequence& sequence, const GivenPoses& given) {
-  const PoseFile poses = read_poses(given.file);
+  PoseFile poses = read_poses(given.file);
+  if (given.camera_frame) to_lidar_frame(poses, camera_of(sequence.truth));
   if (sequence.truth.empty()) return {poses_of(poses.trajectory), {}, {"Truth", "none was given"}};
   PairingOptions pairing;
   pairing.max_gap_s = given.max_gap_s;

@@ -7,23 +7,12 @@
 #include "console/text.hpp"
 #include "io/folders/ground_truth.hpp"
 #include "io/stamp_difference.hpp"
-#include "results/pose_files.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"
 
 namespace rilo {
 
 namespace {
-
-void to_lidar_frame(PoseFile& file, const std::optional<SE3>& T_cam_lidar) {
-  if (!T_cam_lidar) {
-    throw RunError(RunErrorKind::kBadData, file.file.string() +
-                                               ": poses in the camera frame, and the data have no calib.txt with Tr; "
-                                               "expected the transform from LiDAR to camera");
-  }
-  const std::vector<SE3> poses = camera_to_lidar(poses_of(file.trajectory), *T_cam_lidar);
-  for (std::size_t i = 0; i < poses.size(); ++i) file.trajectory[i].T_odom_lidar = poses[i];
-}
 
 PosesOfSweeps by_stamp(const PoseFile& file, const RunRecord& run, double max_gap_s) {
   const Trajectory sweeps = run.trajectory();
@@ -53,6 +42,17 @@ PosesOfSweeps estimate_of(const RunRecord& run) {
 }
 
 }  // namespace
+
+void to_lidar_frame(PoseFile& file, const std::optional<SE3>& T_cam_lidar) {
+  if (!T_cam_lidar) {
+    throw RunError(RunErrorKind::kBadData, file.file.string() +
+                                               ": poses in the camera frame, and no calib.txt with Tr in a folder of "
+                                               "their data; expected the transform from LiDAR to camera there (rilo "
+                                               "report: in the folder of the run's data, or in the one after --gt)");
+  }
+  const std::vector<SE3> poses = camera_to_lidar(poses_of(file.trajectory), *T_cam_lidar);
+  for (std::size_t i = 0; i < poses.size(); ++i) file.trajectory[i].T_odom_lidar = poses[i];
+}
 
 PosesOfSweeps poses_of_sweeps(const GivenPoses& given, const RunRecord& run) {
   PoseFile file = read_poses(given.file);

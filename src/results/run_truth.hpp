@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "results/pose_files.hpp"
 #include "results/run_record.hpp"
 
 namespace rilo {
@@ -26,6 +27,9 @@ struct SweepTruth {
   std::string instant;  ///< what they refer to
   std::vector<std::string> warnings;
 };
+
+/// Poses of the camera become those of the LiDAR. @throws RunError without the transform.
+void to_lidar_frame(PoseFile& file, const std::optional<SE3>& T_cam_lidar);
 
 /// Poses with stamps belong to the sweep whose pose is nearest in time, others to the sweep of their place in the data.
 /// @throws IoError, RunError when none fits or the frame cannot be changed.

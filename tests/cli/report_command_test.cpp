@@ -141,6 +141,26 @@ TEST(ReportCommand, PosesAlone) {
   EXPECT_THAT(html, HasSubstr("<td>4.00</td>"));    // 200 m end 4 m too far
 }
 
+// Without a run beside them it is the data of the truth that say where the camera is.
+TEST(ReportCommand, PosesOfTheCameraAlone) {
+  const TempDir folder;
+  std::string lidar;
+  std::string camera;
+  for (int i = 0; i <= 200; ++i) {
+    lidar += kitti_row(i, 0, 0);
+    camera += kitti_row(0, 0, i);
+  }
+  folder.write("drive/poses_mid.txt", lidar);
+  folder.write("drive/calib.txt", "Tr: 0 -1 0 0 0 0 -1 0 1 0 0 0\n");
+  const std::string peer = folder.write("camera.txt", camera);
+  const fs::path page = folder / "page.html";
+  rilo_succeeds({"report", peer, "--pose-frame", "camera", "--gt", folder / "drive", "-o", page});
+  EXPECT_THAT(slurp(page), HasSubstr("0.000<span class=\"unit\">%</span>"));  // t_rel
+  rilo_fails(3, {"report", peer, "--pose-frame", "camera", "-o", page}, {"camera.txt", "calib.txt", "--gt"});
+  rilo_fails(3, {"report", peer, "--pose-frame", "camera", "--gt", folder / "drive" / "poses_mid.txt", "-o", page},
+             {"camera.txt", "calib.txt", "--gt"});
+}
+
 TEST(ReportCommand, ExperimentsWithSensitivity) {
   const TempDir folder;
   const auto cell = [](const std::string& name, const nlohmann::json& settings, double ape) {

@@ -174,7 +174,7 @@ BenchConfiguration configuration_of(const BenchFlags& flags) {
   result.name = "rilo";
   result.settings = flags.settings;
   if (!flags.config_file.empty()) {
-    result.settings.insert(result.settings.begin(), "config " + last_name(flags.config_file));
+    result.settings.insert(result.settings.begin(), std::string(kConfigWord) + last_name(flags.config_file));
   }
   result.config = load_config(flags.config_file, flags.settings);
   return result;

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "config/bench_plan.hpp"
 #include "io/text.hpp"
 #include "rilo/config/config_key.hpp"
 
@@ -11,21 +12,32 @@ namespace rilo {
 
 namespace {
 
-/// The last value of a key counts, as on the command line; what is not "key=value" is a key of its own.
-std::map<std::string, std::string> map_of(const std::vector<std::string>& settings) {
-  std::map<std::string, std::string> result;
+using Settings = std::map<std::string, std::string>;
+
+/// The last value of a key counts, as on the command line, whichever of its names it has; what is not "key=value" is a
+/// key of its own.
+Settings map_of(const std::vector<std::string>& settings) {
+  OdometryConfig config;
+  const ConfigKeys keys = odometry_keys(config);
+  Settings result;
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
-    result[setting.substr(0, equals)] = equals == std::string::npos ? "" : setting.substr(equals + 1);
+    const std::string name = setting.substr(0, equals);
+    const ConfigKey* key = keys.find(name);
+    result[key == nullptr ? name : key->name()] = equals == std::string::npos ? "" : setting.substr(equals + 1);
   }
   return result;
 }
 
-std::optional<double> default_of(const std::string& key) {
+/// The value of a key that `settings` may set. Nothing where their file may, which need not be there any more.
+std::optional<double> value_in(const Settings& settings, const std::string& key) {
+  if (const auto own = settings.find(key); own != settings.end()) return detail::parse_double(own->second);
   OdometryConfig config;
   const ConfigKeys keys = odometry_keys(config);
+  const bool from_file = std::any_of(settings.begin(), settings.end(),
+                                     [](const auto& entry) { return entry.first.starts_with(kConfigWord); });
   const ConfigKey* found = keys.find(key);
-  return found == nullptr ? std::nullopt : detail::parse_double(found->value());
+  return from_file || found == nullptr ? std::nullopt : detail::parse_double(found->value());
 }
 
 struct Change {
@@ -34,8 +46,7 @@ struct Change {
 };
 
 /// The one numeric key that `other` sets on top of `base`, or sets otherwise.
-std::optional<Change> single_change(const std::map<std::string, std::string>& base,
-                                    const std::map<std::string, std::string>& other) {
+std::optional<Change> single_change(const Settings& base, const Settings& other) {
   std::optional<Change> change;
   for (const auto& [key, text] : other) {
     const auto known = base.find(key);
@@ -74,8 +85,7 @@ std::vector<SensitivitySeries> find_sensitivities(const std::vector<Configuratio
       if (change) found[change->key].points.emplace_back(change->value, other);
     }
     for (auto& [key, series] : found) {
-      const auto own = base.find(key);
-      const auto value = own != base.end() ? detail::parse_double(own->second) : default_of(key);
+      const auto value = value_in(base, key);
       if (!value) continue;
       series.points.emplace_back(*value, name);
       std::sort(series.points.begin(), series.points.end());

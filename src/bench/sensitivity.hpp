@@ -19,7 +19,8 @@ void add_settings(const std::string& configuration, const nlohmann::json& cell,
                   std::vector<ConfigurationSettings>& all);
 
 /// For each configuration that others extend by one numeric key: a series of that key, the base itself at the value
-/// that it has there (its own, or the default). Series of fewer than three values show no trend and are omitted.
+/// that it has there (its own, or the default; unknown where its file may set it: no series). Series of fewer than
+/// three values show no trend and are omitted.
 std::vector<SensitivitySeries> find_sensitivities(const std::vector<ConfigurationSettings>& all);
 
 }  // namespace rilo

@@ -157,6 +157,8 @@ class PlanReader {
               {"elevation_correction", [&](const Node& n) { c.elevation_correction_deg = elevation(n); }},
               {"set", [&](const Node& n) { set.reset(n); }}});
     if (set.IsDefined() && !set.IsNull()) apply(set, c);
+    // No key of the odometry, but what tells this configuration from others.
+    if (c.elevation_correction_deg) c.settings.push_back(fmt::format("elevation {}°", *c.elevation_correction_deg));
     return c;
   }
 
@@ -167,7 +169,7 @@ class PlanReader {
              "Relative paths count from the folder of this file");
     }
     c.config = load_config(file);
-    c.settings.insert(c.settings.begin(), "config " + file.filename().string());
+    c.settings.insert(c.settings.begin(), std::string(kConfigWord) + file.filename().string());
   }
 
   void apply(const Node& set, BenchConfiguration& c) const {

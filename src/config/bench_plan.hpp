@@ -37,11 +37,14 @@ struct BenchSequence {
   std::string group;  ///< of sequences that are summed up together, "tuning" say; empty: none
 };
 
+/// Among the settings of a configuration: before the name of its file.
+inline constexpr std::string_view kConfigWord = "config ";
+
 /// One way to run them.
 struct BenchConfiguration {
   std::string name;
   OdometryConfig config;
-  std::vector<std::string> settings;                              ///< the file's name and key=value, for the results
+  std::vector<std::string> settings;  ///< the file's name, key=value and the elevation correction, for the results
   std::optional<double> elevation_correction_deg = std::nullopt;  ///< goes before that of the sequence
 };
 

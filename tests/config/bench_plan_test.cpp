@@ -45,6 +45,7 @@ configurations:
   - name: full
   - name: tight
     set: [icp.gate=2, coarse.enabled=false]
+  - {name: given, elevation_correction: 0.205}
 )");
   ASSERT_EQ(plan.sequences.size(), 2U);
   EXPECT_EQ(plan.sequences[0].name, "one");
@@ -64,11 +65,13 @@ configurations:
   ASSERT_EQ(two.peers.size(), 2U);
   EXPECT_EQ(two.peers[0].name, "KISS");
   EXPECT_EQ(two.peers[0].poses, "folder/peers/kiss.txt");
-  ASSERT_EQ(plan.configurations.size(), 2U);
+  ASSERT_EQ(plan.configurations.size(), 3U);
   EXPECT_EQ(plan.configurations[1].config.icp.gate, 2.0);
   EXPECT_FALSE(plan.configurations[1].config.coarse.enabled);
   EXPECT_TRUE(plan.configurations[0].config.coarse.enabled);
   EXPECT_THAT(plan.configurations[1].settings, ElementsAre("icp.gate=2", "coarse.enabled=false"));
+  EXPECT_THAT(plan.configurations[2].settings,
+              ElementsAre("elevation 0.205°"));  // else it would look like the defaults
 }
 
 TEST(BenchPlan, peers_of_every_sequence) {

@@ -35,8 +35,10 @@ void set_key(const ConfigKey& key, const std::string& text, const Place& place) 
 
 using Positions = std::map<std::string, std::string>;  // of the keys of a file, by name
 
-// Values that are each in range and do not go together. One of them is in the file.
-void check_together(const OdometryConfig& config, const std::string& file, const Positions& positions) {
+// Values that are each in range and do not go together. They come from the file, or, where it has none of them, from
+// `elsewhere`.
+void check_together(const OdometryConfig& config, const std::string& file, const Positions& positions,
+                    const std::string& elsewhere) {
   try {
     validate(config);
   } catch (const std::invalid_argument& error) {
@@ -44,7 +46,8 @@ void check_together(const OdometryConfig& config, const std::string& file, const
     const auto named = std::find_if(positions.begin(), positions.end(), [&what](const auto& key) {
       return what.find(key.first + " ") != std::string::npos || what.find(key.first + ",") != std::string::npos;
     });
-    throw ConfigError({file, named == positions.end() ? "" : named->second, what, "", ""});
+    if (named == positions.end()) throw ConfigError({elsewhere, "", what, "", ""});
+    throw ConfigError({file, named->second, what, "", ""});
   }
 }
 
@@ -134,7 +137,7 @@ void override_values(OdometryConfig& config, const std::vector<std::string>& ove
 
 OdometryConfig parse_config(std::string_view yaml, const std::string& name, const OdometryConfig& base) {
   OdometryConfig config = base;
-  check_together(config, name, load_into(config, yaml, name));
+  check_together(config, name, load_into(config, yaml, name), name);
   return config;
 }
 
@@ -148,7 +151,7 @@ OdometryConfig load_config(const std::filesystem::path& file, const std::vector<
   OdometryConfig config;
   const Positions positions = load_into(config, text_of(file), file.string());
   override_values(config, overrides, origin);
-  check_together(config, file.string(), positions);
+  check_together(config, file.string(), positions, origin);
   return config;
 }
 
@@ -156,7 +159,7 @@ OdometryConfig with_overrides(const OdometryConfig& base, const std::vector<std:
                               const std::string& origin) {
   OdometryConfig config = base;
   override_values(config, overrides, origin);
-  if (!overrides.empty()) check_together(config, origin, {});
+  if (!overrides.empty()) check_together(config, origin, {}, origin);
   return config;
 }
 

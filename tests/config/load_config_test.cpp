@@ -15,6 +15,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string config_message(const std::string& yaml) {
   try {
@@ -188,6 +189,18 @@ TEST(Overrides, may_put_right_what_a_file_alone_contradicts) {
     EXPECT_THAT(error.what(),
                 AllOf(HasSubstr("far.yaml, line 1, column 14"), HasSubstr("preprocess.max_range_m is 100"),
                       HasSubstr("preprocess.min_range_m, 150")));
+  }
+}
+
+TEST(Overrides, that_contradict_each_other_are_no_fault_of_the_file) {
+  const test::TempDir folder;
+  const auto file = folder.write("gate.yaml", "icp: {gate: 4}\n");
+  try {
+    load_config(file, {"preprocess.max_range_m=2", "preprocess.min_range_m=5"});
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(),
+                AllOf(HasSubstr("--set"), HasSubstr("preprocess.max_range_m is 2"), Not(HasSubstr("gate.yaml"))));
   }
 }
 

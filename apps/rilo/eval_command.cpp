@@ -10,7 +10,6 @@
 #include "checks.hpp"
 #include "command.hpp"
 #include "console/text.hpp"
-#include "report/figures.hpp"
 #include "results/evaluation_output.hpp"
 #include "results/metrics_json.hpp"
 #include "results/pose_files.hpp"
@@ -76,25 +75,28 @@ nlohmann::json sequence_json(const Sequence& sequence) {
   return json;
 }
 
-void print_json(const std::vector<Sequence>& sequences, const KittiBenchmark& benchmark) {
+void print_json(const std::vector<Sequence>& sequences) {
   nlohmann::json json;
+  std::vector<KittiError> errors;
   if (sequences.size() == 1) {
     json = sequence_json(sequences.front());
   } else {
     for (const Sequence& sequence : sequences) json["sequences"].push_back(sequence_json(sequence));
   }
-  json.update(benchmark_json(benchmark));
+  for (const Sequence& sequence : sequences) errors.push_back(sequence.evaluation.kitti);
+  json.update(benchmark_json(kitti_benchmark(errors)));
   std::cout << json_text(json);
 }
 
-void print_table(const std::vector<Sequence>& sequences, const KittiBenchmark& benchmark) {
+/// The averages are over the sequences of which a t_rel is shown.
+void print_table(const std::vector<Sequence>& sequences) {
+  std::vector<KittiError> errors;
   for (const Sequence& sequence : sequences) {
     std::cout << fmt::format("{} against {}\n{}\n{}\n", sequence.estimate, sequence.truth, sequence.protocol,
                              evaluation_table(sequence.evaluation));
+    if (shows_t_rel(sequence.evaluation)) errors.push_back(sequence.evaluation.kitti);
   }
-  const bool far = std::any_of(sequences.begin(), sequences.end(),
-                               [](const Sequence& sequence) { return sequence.evaluation.path_m >= kLeastPathM; });
-  if (far) std::cout << benchmark_table(benchmark, sequences.size());
+  std::cout << benchmark_table(kitti_benchmark(errors), errors.size());
 }
 
 /// Options that make no difference to any of the sequences.
@@ -116,13 +118,10 @@ int eval(const EvalFlags& flags, const CLI::App& command) {
     sequences.push_back(evaluate_pair(flags, flags.more[i], flags.more[i + 1]));
   }
   warn_of_idle_options(command, sequences);
-  std::vector<KittiError> errors;
-  for (const Sequence& sequence : sequences) errors.push_back(sequence.evaluation.kitti);
-  const KittiBenchmark benchmark = kitti_benchmark(errors);
   if (flags.json) {
-    print_json(sequences, benchmark);
+    print_json(sequences);
   } else {
-    print_table(sequences, benchmark);
+    print_table(sequences);
   }
   return kSuccess;
 }

@@ -17,13 +17,14 @@ std::string row(const char* name, const ErrorSummary& s, const char* unit) {
 
 }  // namespace
 
+bool shows_t_rel(const Evaluation& e) { return e.path_m >= kLeastPathM && !e.kitti.segments.empty(); }
+
 std::string evaluation_table(const Evaluation& e) {
   std::string text = fmt::format("{}, path {:.1f} m\n", counted(e.poses, "pose"), e.path_m);
-  const auto t_rel = e.kitti.t_rel_pct();
-  const auto r_rel = e.kitti.r_rel_deg_100m();
-  if (t_rel && r_rel && e.path_m >= kLeastPathM) {
+  if (shows_t_rel(e)) {
     text += fmt::format(
-        "{:<34} t_rel {:.4f} %   r_rel {:.4f} deg/100m   ({}; {})\n", "KITTI relative error", *t_rel, *r_rel,
+        "{:<34} t_rel {:.4f} %   r_rel {:.4f} deg/100m   ({}; {})\n", "KITTI relative error",
+        e.kitti.t_rel_pct().value_or(0), e.kitti.r_rel_deg_100m().value_or(0),
         counted(e.kitti.segments.size(), "segment"),
         e.kitti.short_path ? "short path: lengths k/8 of 80 % of it" : "100 … 800 m, every 10 poses, pooled");
     for (const KittiLengthError& length : e.kitti.per_length()) {

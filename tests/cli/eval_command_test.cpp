@@ -200,6 +200,11 @@ TEST(EvalCommand, TextForPeople) {
   const std::string text = rilo_succeeds({"eval", at_rest, truth}).out;
   EXPECT_NE(text.find("KITTI relative error               none: the path is too short"), std::string::npos) << text;
   EXPECT_EQ(text.find("t_rel"), std::string::npos) << text;
+  // Nor do they count in the averages.
+  const std::string longer = folder.write("longer.txt", straight_kitti(201, 1.02));
+  const std::string both = rilo_succeeds({"eval", truth, longer, at_rest, truth}).out;
+  EXPECT_NE(both.find("1 sequence: t_rel 2.0000 %"), std::string::npos) << both;
+  EXPECT_NE(both.find("t_rel 2.0000 %   r_rel 0.0000 deg/100m   mean of the sequences"), std::string::npos) << both;
 }
 
 TEST(EvalCommand, AFolderInThePlaceOfPosesNamesThoseInIt) {

@@ -54,13 +54,13 @@ int main(int argc, char** argv) {
   cli::add_describe_commands(app, exit_code);
   try {
     app.parse(argc, argv);
-    std::cout.flush();
-    return std::cout ? exit_code : fail(kCannotWrite, "standard output: cannot be written");
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return fail(kUsage, cli::usage_error(app, error, argc, argv));
+    if (error.get_exit_code() != 0) return fail(kUsage, cli::usage_error(app, error, argc, argv));
+    exit_code = app.exit(error);  // --help, --version
   } catch (...) {
     const Failure failure = current_failure();
     return fail(failure.code, failure.message);
   }
+  std::cout.flush();
+  return std::cout ? exit_code : fail(kCannotWrite, "standard output: cannot be written");
 }

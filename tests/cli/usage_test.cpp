@@ -1,5 +1,7 @@
 // Help, version, and wrong command lines.
+#include <cstdlib>
 #include <regex>
+#include <sys/wait.h>
 
 #include "cli/command_process.hpp"
 
@@ -20,6 +22,13 @@ TEST(Usage, Version) {
   const Outcome version = rilo_succeeds({"--version"});
   EXPECT_TRUE(std::regex_match(version.out, std::regex(R"(rilo \d+\.\d+\.\d+\n)"))) << version.out;
   EXPECT_EQ(version.err, "");
+}
+
+TEST(Usage, WhatCannotBePrintedIsNoSuccess) {
+  for (const std::string word : {"--help", "--version", "man"}) {
+    const int status = std::system(("\"$RILO_BIN\" " + word + " >/dev/full 2>/dev/null").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 4) << word;
+  }
 }
 
 TEST(Usage, AMissingValueIsNamedAsOne) {

@@ -31,6 +31,11 @@ done
 rilo="$root/usr/bin/rilo"
 LD_LIBRARY_PATH="$(echo "$root"/usr/lib/*-linux-gnu)"
 export LD_LIBRARY_PATH
+# Another version of the libraries can stand beside this one: it has no file of the same name.
+libraries="$(echo build/package/librilo[0-9]*.deb)"
+soversion="$(dpkg-deb -f "$libraries" Package)"
+soversion="${soversion#librilo}"
+! dpkg -c "$libraries" | grep -v '/$' | grep -vF "$soversion" || die "$libraries holds files without its version"
 # Of the packages, not of a build that lies beside them.
 ! ldd "$rilo" | grep librilo | grep -v "$root/" || die "$rilo finds libraries that are not those of the packages"
 "$rilo" simulate --out "$root/drive" --sensor vlp16 --start 10 --sweeps 30 --quiet

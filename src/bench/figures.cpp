@@ -102,8 +102,10 @@ BenchCell combination_of(const std::vector<const BenchCell*>& repeats) {
     if (cell->failed()) result = *cell;
   }
   if (result.failed() || repeats.size() == 1) return result;
+  // What is cut to keep a budget of time differs, and with it all that is found.
+  const bool by_time = result.metrics.budget.has_value();
   for (const BenchCell* cell : repeats) {
-    if (same_findings(*cell, result)) continue;
+    if (by_time || same_findings(*cell, result)) continue;
     result.error = fmt::format("repeat {} found something else than repeat {}", cell->repeat, result.repeat);
     result.error_code = kUnexpected;
     return result;
@@ -111,10 +113,16 @@ BenchCell combination_of(const std::vector<const BenchCell*>& repeats) {
   for (const BenchFigure& figure : bench_figures()) {
     std::vector<double> values;
     for (const BenchCell* cell : repeats) {
-      if (const auto value = value_of(*cell, figure); figure.measured && value) values.push_back(*value);
+      const auto value = value_of(*cell, figure);
+      if (value && (figure.measured || by_time)) values.push_back(*value);
     }
     std::sort(values.begin(), values.end());
     if (!values.empty()) figure.place(result.metrics) = percentile(values, 0.5);
+  }
+  for (const BenchCell* cell : repeats) {
+    if (!by_time || cell == repeats.front() || !cell->kitti || !result.kitti) continue;
+    const auto& more = cell->kitti->segments;
+    result.kitti->segments.insert(result.kitti->segments.end(), more.begin(), more.end());
   }
   result.metrics.repeats = repeats.size();
   return result;

@@ -195,6 +195,19 @@ TEST(BenchRepeats, TimesAreMediansAndFindingsMustAgree) {
   EXPECT_EQ(combined({made_cell("a", 1, 30, 0.5), failed}).at(0).error, "why");
 }
 
+// They depend on the machine, and on what else it does.
+TEST(BenchRepeats, WithABudgetOfTimeFindingsAreMediansToo) {
+  std::vector<BenchCell> cells = {made_cell("a", 1, 30, 0.5), made_cell("a", 2, 10, 0.7), made_cell("a", 3, 20, 0.6)};
+  for (BenchCell& cell : cells) cell.metrics.budget = BudgetMetrics{40, 1, 0, 0};
+  cells[1].kitti->segments = {{1, 2, 100, 0.75, 0.1}};
+  cells[2].kitti->segments = {{1, 2, 100, 0.50, 0.1}};
+  const BenchCell one = combined(cells).at(0);
+  EXPECT_FALSE(one.failed()) << one.error;
+  EXPECT_EQ(value_of(one, bench_figure("ms_mean")), 20.0);
+  EXPECT_EQ(value_of(one, bench_figure("ape_rmse_m")), 0.6);
+  EXPECT_DOUBLE_EQ(one.kitti->t_rel_pct().value(), 50.0);  // for the pooled average
+}
+
 TEST(Slurm, ListsAreReadAndWritten) {
   EXPECT_EQ(index_ranges({0, 1, 2, 5, 7, 8}), "0-2,5,7-8");
   EXPECT_EQ(index_ranges({3}), "3");

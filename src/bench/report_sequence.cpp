@@ -100,6 +100,7 @@ struct PairedPeer {
   std::vector<SE3> estimate;
   std::vector<SE3> truth;
   std::pair<std::string, std::string> protocol;
+  std::vector<std::size_t> sweeps;  // their places in the data; empty where these are not known
 };
 
 /// On the sweeps of the run beside them.
@@ -114,9 +115,12 @@ PairedPeer on_sweeps_of(const RunRecord& run, const ReportSequence& sequence, co
     TruthMatch match = match_truth(*truth_of_sweeps(run, file), poses);
     peer.truth = std::move(match.truth);
     peer.estimate = std::move(match.estimate);
+    for (const std::size_t i : match.matched) peer.sweeps.push_back(run.indices[i]);
   } else {
-    for (const auto& pose : poses) {
-      if (pose) peer.estimate.push_back(*pose);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (!poses[i]) continue;
+      peer.estimate.push_back(*poses[i]);
+      peer.sweeps.push_back(run.indices[i]);
     }
   }
   peer.protocol = {"Compared on", fmt::format("{} of the {} of the run beside it",
@@ -134,11 +138,11 @@ std::optional<SE3> camera_of(const fs::path& truth) {
 PairedPeer on_their_own(const ReportSequence& sequence, const GivenPoses& given) {
   PoseFile poses = read_poses(given.file);
   if (given.camera_frame) to_lidar_frame(poses, camera_of(sequence.truth));
-  if (sequence.truth.empty()) return {poses_of(poses.trajectory), {}, {"Truth", "none was given"}};
+  if (sequence.truth.empty()) return {poses_of(poses.trajectory), {}, {"Truth", "none was given"}, {}};
   PairingOptions pairing;
   pairing.max_gap_s = given.max_gap_s;
   PairedPoses paired = pair_poses(read_truth(sequence.truth, PoseInstant::kMid), poses, pairing);
-  return {std::move(paired.poses.estimate), std::move(paired.poses.truth), {"Protocol", paired.protocol}};
+  return {std::move(paired.poses.estimate), std::move(paired.poses.truth), {"Protocol", paired.protocol}, {}};
 }
 
 Placed placed_poses(const ReportSequence& sequence, const ReportInput& input, const RunRecord* run,
@@ -153,6 +157,7 @@ Placed placed_poses(const ReportSequence& sequence, const ReportInput& input, co
   report.sequence = sequence.name;
   report.dataset = valid_utf8(input.path.string());
   report.facts = {{"Poses", report.dataset}, peer.protocol};
+  report.numbers = peer.sweeps;
   report.estimate = moved(peer.estimate, peer.estimate.front().inverse());
   if (!peer.truth.empty()) {
     report.evaluation = evaluate(peer.truth, report.estimate);

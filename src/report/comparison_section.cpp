@@ -123,7 +123,7 @@ std::string sequence_article(const std::vector<RunReport>& runs, const std::stri
       figures_panel(runs, places) +
       (places.size() > 1 ? chart_panel("bars", "full", "Side by side", "Shorter is better.") : "") +
       chart_panel("paths", "tall", "Trajectories", "Seen from above, equal axes, metres; first poses made equal.");
-  html += chart_panel("heights", "side", "Height", "z over the distance travelled.");
+  html += chart_panel("heights", "side", "Height", "z over the distance travelled, from where the first run begins.");
   html += accuracy_panels(runs, places) + effort_panels(runs, places) + "</div>\n";
   return html + embedded_json(comparison_data(runs, places)) + "</article>\n";
 }

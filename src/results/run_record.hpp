@@ -18,7 +18,8 @@ struct TruthMatch {
   std::vector<SE3> truth;     ///< of the sweeps that have one
   std::vector<SE3> estimate;  ///< the poses of the same sweeps
   std::string file;
-  std::string instant;  ///< what the true poses refer to
+  std::string instant;               ///< what the true poses refer to
+  std::vector<std::size_t> matched;  ///< which sweeps of the run, from 0
 };
 
 /// A session's result, where it came from and what was made of it.

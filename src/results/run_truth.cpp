@@ -75,6 +75,7 @@ TruthMatch match_truth(const SweepTruth& truth, const PosesOfSweeps& estimate) {
     if (!truth.poses[i] || !estimate[i]) continue;
     match.truth.push_back(*truth.poses[i]);
     match.estimate.push_back(*estimate[i]);
+    match.matched.push_back(i);
   }
   if (match.truth.size() < 2) {
     throw RunError(RunErrorKind::kBadData,

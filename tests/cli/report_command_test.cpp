@@ -68,6 +68,20 @@ TEST(ReportCommand, ComparesRunsAndPosesOfOthers) {
   }
 }
 
+TEST(ReportCommand, PosesOfOthersHaveTheNumbersOfTheirSweeps) {
+  const TempDir folder;
+  rilo_succeeds({"run", shared_drive(), "--out", folder / "late", "--quiet", "--no-report", "--start", "5"});
+  const fs::path page = folder / "page.html";
+  rilo_succeeds({"report", folder / "late", "Peer=" + (folder / "late" / "trajectory.tum").string(), "-o", page});
+  const std::string html = slurp(page);
+  const auto count = [&](const std::string& part) {
+    std::size_t found = 0;
+    for (auto at = html.find(part); at != std::string::npos; at = html.find(part, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count(R"("numbers":[5,6,)"), 2U);
+}
+
 TEST(ReportCommand, ASingleRunIsThePageOfRun) {
   const TempDir folder;
   rilo_succeeds({"report", shared_run(), "-o", folder / "one.html"});

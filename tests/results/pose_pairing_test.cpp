@@ -215,6 +215,7 @@ TEST(PosesOfSweeps, OnlySweepsWithBothAreCompared) {
   const TruthMatch match = match_truth({{at_0, at_0, std::nullopt, at_1}, "file", "mid", {}}, {at_0, {}, at_0, at_1});
   EXPECT_THAT(places(match.truth), ElementsAre(0, 1));
   EXPECT_THAT(places(match.estimate), ElementsAre(0, 1));
+  EXPECT_THAT(match.matched, ElementsAre(0, 3));
   EXPECT_EQ(match.instant, "mid");
   EXPECT_THROW(match_truth({{at_0, std::nullopt}, "file", "mid", {}}, {at_0, at_1}), RunError);
 }

@@ -6,16 +6,32 @@ const runDash = (k) => ['', '', '', '', '7 3', '3 3', '10 3', '10 3 2 3', '5 2',
 
 const comparisonOf = (data, runs) => {
   const all = data.runs.map((place, k) => ({
-    k, name: data.names[k], run: runs[place], lengths: data.lengths[k], color: runColor(k), dash: runDash(k), on: true,
+    k, name: data.names[k], run: runs[place], lengths: data.lengths[k], color: runColor(k), dash: runDash(k), on: true, from: 0,
   })).filter((entry) => entry.run);
+  placeAlong(all.filter(hasPath));
   const comparison = { data, all };
   comparison.shown = (is) => all.filter((entry) => entry.on && (!is || is(entry)));
   comparison.truth = () => {
-    const truths = all.map(({ run }) => run.data.truth).filter((t) => t.x.length);
-    return truths.reduce((longest, t) => (t.x.length > longest.x.length ? t : longest), { x: [], y: [], z: [] });
+    const truths = all.map(({ run, from }) => ({ ...run.data.truth, from })).filter((t) => t.x.length);
+    return truths.reduce((longest, t) => (t.x.length > longest.x.length ? t : longest), { x: [], y: [], z: [], from: 0 });
   };
   return comparison;
 };
+const hasErrors = ({ run }) => run.data.errors !== null;
+const hasSweeps = ({ run }) => run.data.sweeps !== null;
+const hasTimes = (entry) => hasSweeps(entry) && entry.run.data.sweeps.max > 0;
+const hasPath = ({ run }) => run.data.estimate.x.length > 0;
+
+// A run that begins later begins farther along the path, by as much as another one has gone until its first sweep.
+function placeAlong(entries) {
+  const placed = [], last = ({ run }) => run.sweep[run.sweep.length - 1];
+  for (const entry of entries.filter(({ run }) => run.data.numbers).sort((a, b) => a.run.sweep[0] - b.run.sweep[0])) {
+    const begin = entry.run.sweep[0], other = placed.find((before) => last(before) >= begin) || placed[placed.length - 1];
+    if (other) entry.from = other.from + other.run.distance[nearest(other.run.sweep, begin)];
+    placed.push(entry);
+  }
+}
+const along = ({ from }, x) => x.map((v) => v + from);
 const lineMark = ({ color, dash }) => `<svg class="mark" width="22" height="10" aria-hidden="true"><line x1="1" x2="21" y1="5" y2="5" ` +
   `style="stroke:${color}" stroke-width="3" ${dash ? `stroke-dasharray="${dash}"` : ''}/></svg>`;
 
@@ -59,10 +75,6 @@ function compareCurves(host, entries, o, extra) {
     xname: (i) => `${show(longest[i], 1)} m`, series: [...(extra || []), ...series], ...o.more,
   });
 }
-const hasErrors = ({ run }) => run.data.errors !== null;
-const hasSweeps = ({ run }) => run.data.sweeps !== null;
-const hasTimes = (entry) => hasSweeps(entry) && entry.run.data.sweeps.max > 0;
-const hasPath = ({ run }) => run.data.estimate.x.length > 0;
 
 const comparisonCharts = {
   bars(comparison, host) {
@@ -84,12 +96,12 @@ const comparisonCharts = {
   },
   heights(comparison, host) {
     const truth = comparison.truth();
-    const band = truth.x.length ? [{ name: 'truth', x: distances(truth), y: truth.z, color: 'var(--band)', digits: 2, unit: 'm', truth: true }] : [];
-    compareCurves(host, comparison.shown(hasPath), { unit: 'm', ylabel: 'z (m)', height: 236, of: ({ run }) => ({ x: run.distance, y: run.data.estimate.z, digits: 2 }) }, band);
+    const band = truth.x.length ? [{ name: 'truth', x: along(truth, distances(truth)), y: truth.z, color: 'var(--band)', digits: 2, unit: 'm', truth: true }] : [];
+    compareCurves(host, comparison.shown(hasPath), { unit: 'm', ylabel: 'z (m)', height: 236, of: (entry) => ({ x: along(entry, entry.run.distance), y: entry.run.data.estimate.z, digits: 2 }) }, band);
   },
   patherror(comparison, host) {
     compareCurves(host, comparison.shown(hasErrors), {
-      unit: 'm', ylabel: 'error (m)', zero: true, height: 236, of: ({ run }) => ({ x: run.data.errors.distance, y: run.data.errors.translation }),
+      unit: 'm', ylabel: 'error (m)', zero: true, height: 236, of: (entry) => ({ x: along(entry, entry.run.data.errors.distance), y: entry.run.data.errors.translation }),
     });
   },
   drift(comparison, host) {
@@ -97,7 +109,7 @@ const comparisonCharts = {
     host.innerHTML = `<div class="strips">${axes.map(([, title]) => `<div><p class="striptitle">${title} <span class="unit">m</span></p><div class="chart"></div></div>`).join('')}</div>`;
     const hosts = host.querySelectorAll('.chart');
     axes.forEach(([key], n) => compareCurves(hosts[n], comparison.shown(hasErrors), {
-      unit: 'm', height: 190, of: ({ run }) => ({ x: run.data.errors.distance, y: run.data.errors[key] }),
+      unit: 'm', height: 190, of: (entry) => ({ x: along(entry, entry.run.data.errors.distance), y: entry.run.data.errors[key] }),
     }));
   },
   trel(comparison, host) { byLength(comparison, host, 1, 't_rel (%)', '%'); },

@@ -114,16 +114,19 @@ class SlurmRun {
 
   fs::path script_file(std::size_t offset) const { return folder_of(order_.out) / fmt::format("cells-{}.sh", offset); }
 
-  // All open cells that are not in the queue.
+  // All open cells that are not in the queue. Each array has the limit by itself: with one, there is one array at a
+  // time.
   void submit() {
+    if (order_.at_a_time > 0 && !flights_.empty()) return;
     std::map<std::size_t, std::vector<std::size_t>> arrays;  // by offset
     for (const std::size_t cell : open_) {
       const std::size_t offset = cell / kLargestArray * kLargestArray;
       if (flights_.count(cell) > 0) continue;
-      folder_.remove(all_[cell]);  // a failure of before: what will lie there is of the new task
       arrays[offset].push_back(cell - offset);
     }
     for (const auto& [offset, indices] : arrays) {
+      // A failure of before: what will lie there is of the new task.
+      for (const std::size_t index : indices) folder_.remove(all_[index + offset]);
       const std::string limit = order_.at_a_time > 0 ? fmt::format("%{}", order_.at_a_time) : "";
       const std::string array = submit_array(script_file(offset), name_at(offset), index_ranges(indices) + limit,
                                              folder_of(order_.out) / "%A_%a.log", order_.sbatch);
@@ -131,6 +134,7 @@ class SlurmRun {
         flights_[index + offset] = {{array, index, "PENDING", name_at(offset)}, false, false, {}, ""};
         ++attempts_[index + offset];
       }
+      if (order_.at_a_time > 0) return;
     }
   }
 

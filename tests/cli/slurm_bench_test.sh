@@ -106,6 +106,8 @@ kill_task broken 0
 stop_task broken 1
 scancel "$(array_of 1)"
 stop_task broken 2
+sleep 6  # the driver waits three seconds for the result of a task that failed
+[ "$(tasks_had broken 0)" -eq 1 ] || fail "cell 0 was submitted again beside an array that has the one place"
 scontrol update JobId="$(array_of 2)" EndTime="$(date -d '+1 second' +%Y-%m-%dT%H:%M:%S)"
 wait "$driver" || fail "exit code $?"
 driver=""

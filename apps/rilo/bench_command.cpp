@@ -60,10 +60,9 @@ Example:
   rilo bench kitti data/kitti --out results/kitti)";
 
 constexpr const char* kM2dgrFooter =
-    R"(Each sequence is a folder ROOT/NAME/ of sweeps that rilo run can open (.pcd, .ply or .bin, with stamps in times.txt
-or in the files' names), with its true poses in ROOT/NAME.txt (TUM form, as M2DGR provides them). A bag ROOT/NAME.bag
-without such a folder fails with the reason: unpack it. hall_01, hall_02, hall_03, room_01, door_01 and lift_01 are those
-of the paper's table.
+    R"(Each sequence is a bag ROOT/NAME.bag, or a folder ROOT/NAME/ of sweeps that rilo run can open (.pcd, .ply or .bin,
+with stamps in times.txt or in the files' names), which goes before the bag. Its true poses are in ROOT/NAME.txt (TUM
+form, as M2DGR provides them). hall_01, hall_02, hall_03, room_01, door_01 and lift_01 are those of the paper's table.
 
 Example:
   rilo bench m2dgr data/m2dgr --out results/m2dgr)";

@@ -245,10 +245,11 @@ std::vector<BenchJob> m2dgr_jobs(const fs::path& root, const BenchConfiguration&
     jobs.push_back(job);
   }
   if (jobs.empty()) {
-    throw RunError(RunErrorKind::kBadData,
-                   root.string() +
-                       ": no sequence found; expected folders NAME/ with sweeps (.pcd, .ply or .bin with stamps) and "
-                       "NAME.txt with the true poses (TUM form) beside each");
+    throw RunError(
+        RunErrorKind::kBadData,
+        root.string() +
+            ": no sequence found; expected bags NAME.bag or folders NAME/ with sweeps (.pcd, .ply or .bin with "
+            "stamps), and NAME.txt with the true poses (TUM form) beside each");
   }
   return jobs;
 }

@@ -103,7 +103,7 @@ TEST(M2dgrJobs, FoldersBagsAndTruth) {
   fs::create_directories(root / "hall_01");
   root.write("hall_01.txt", "");
   root.write("hall_01.bag", "");  // the folder is taken
-  root.write("door_01.bag", "");  // not unpacked: its cell will say so
+  root.write("door_01.bag", "");  // read as it is
   fs::create_directories(root / "street_01");
   root.write("street_01.txt", "");  // not in the paper, with truth
   fs::create_directories(root / "notes");

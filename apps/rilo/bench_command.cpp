@@ -122,6 +122,18 @@ void check_peer_name(const BenchPlan& plan, const std::string& name, const std::
                  origin + ": \"" + name + "\" is both a configuration and a peer; expected names that differ");
 }
 
+// What to make of figures of whole drives where parts are run. A part that the plan names may be what they are of.
+std::string doubtful_figures(const BenchFlags& flags, const BenchPlan& plan) {
+  if (flags.order.run.count > 0) return "with --count its times alone are used";
+  std::string parts;
+  for (const BenchSequence& sequence : plan.sequences) {
+    const bool named = std::any_of(flags.order.peer_figures.begin(), flags.order.peer_figures.end(),
+                                   [&](const BenchCell& figures) { return figures.sequence == sequence.name; });
+    if (named && (sequence.start > 0 || sequence.count > 0)) parts += (parts.empty() ? "" : ", ") + sequence.name;
+  }
+  return parts.empty() ? "" : "a part alone is run of " + parts;
+}
+
 // Of the plan and of the command line, which goes before it.
 void add_peers(BenchFlags& flags, BenchPlan& plan) {
   std::vector<BenchPeer> peers;
@@ -147,10 +159,10 @@ void add_peers(BenchFlags& flags, BenchPlan& plan) {
   for (const BenchCell& cell : flags.order.peer_figures) {
     check_peer_name(plan, cell.configuration, plan.peer_figures.string());
   }
-  if (flags.order.run.count > 0 && !flags.order.run.quiet) {
-    std::cerr << "rilo: warning: " << plan.peer_figures.string()
-              << ": its figures are of whole drives; with --count its times alone are used\n";
-  }
+  const std::string doubt = doubtful_figures(flags, plan);
+  if (doubt.empty() || flags.order.run.quiet) return;
+  std::cerr << "rilo: warning: " << plan.peer_figures.string() << ": its figures are of whole drives; " << doubt
+            << '\n';
 }
 
 std::vector<BenchJob> plan_jobs(BenchFlags& flags) {

@@ -1,4 +1,5 @@
 // rilo bench FILE.
+#include <algorithm>
 #include <csignal>
 #include <set>
 #include <sys/types.h>
@@ -160,6 +161,10 @@ TEST(BenchCommand, SetsGivenPosesAndFiguresBesideOurs) {
   const json same = cell_of(json_file(folder / "out" / "results.json"), "one", "same");
   EXPECT_LT(same["figures"]["t_rel_pct"].get<double>(), 99);
   EXPECT_EQ(same["figures"]["ms_mean"], 12.5);
+  std::vector<std::string> loud = command;
+  loud.erase(std::find(loud.begin(), loud.end(), "--quiet"));
+  EXPECT_THAT(rilo_succeeds(loud).err,
+              HasSubstr("peers.csv: its figures are of whole drives; a part alone is run of two\n"));
   const Outcome bench = rilo_succeeds(command);
   EXPECT_THAT(bench.out, HasSubstr("t_rel over that of the peers"));
   EXPECT_THAT(bench.out, HasSubstr("lost by lost: one, two"));

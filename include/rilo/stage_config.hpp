@@ -45,7 +45,7 @@ struct AdaptiveIcpConfig {
   double epsilon = 0.1;           ///< converged when an update is smaller, in standard deviations of pose and velocity
   bool refine_motion = true;      ///< estimate the velocity during the sweep together with the pose
   double noise_m = 0.02;          ///< least standard deviation of a residual
-  double scatter_noise_m = 0.01;  ///< σ of the weight σ² / (σ² + variance) of points that meet no plane
+  double scatter_noise_m = 0.05;  ///< σ of the weight σ² / (σ² + variance) of points that meet no plane
   double independent_share = 0.01;  ///< share of the residuals that count as independent in the information
   double weak_direction = 0.003;    ///< relative eigenvalue at which half of a direction is left to the prior; 0: off
 };

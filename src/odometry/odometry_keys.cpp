@@ -144,7 +144,7 @@ void add_icp(KeyVisitor& keys, AdaptiveIcpConfig& c) {
                c.refine_motion);
   keys.real({"noise_m", "m", "least standard deviation of a residual", kNotTuned}, c.noise_m, 0.0001, 10);
   keys.real({"scatter_noise_m", "m", "sigma of the weight sigma²/(sigma² + variance) of points that meet no plane",
-             kNotTuned},
+             "experiment: weight of what is no plane"},
             c.scatter_noise_m, 0.0001, 10);
   keys.real({"independent_share", "", "share of the residuals that count as independent", "experiment: open field"},
             c.independent_share, 1e-6, 1);

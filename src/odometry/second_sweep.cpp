@@ -16,6 +16,7 @@ constexpr int kRounds = 4;                 // each compensates the first sweep w
 constexpr double kDraftShare = 1.0 / 3.0;  // of the points; with a quarter fewer second sweeps are certain
 constexpr double kMostSpeed = 37.5;        // m/s, 135 km/h: so far other places are looked at
 constexpr int kLooks = 3;                  // the first result may be turned, too
+constexpr Eigen::Index kDirections = 2;    // of translations, in which other places are looked at
 }  // namespace
 
 SecondSweep::SecondSweep(const RegistrationParts& parts, const PoseSearch& search)
@@ -101,11 +102,10 @@ Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior&
   return found;
 }
 
-/// The sweep as found beside the first one.
-SweepOverlap SecondSweep::overlap_with_first(const Registration& found, const Eigen::Vector3d& direction) const {
+/// The sweep as found beside the first one; `planes`: the map of it alone.
+SweepOverlap SecondSweep::overlap_with_first(const Registration& found, const LocalMap& planes,
+                                             const Eigen::Vector3d& direction) const {
   const SE3& origin = parts_.tracker.trusted().T_odom_lidar;
-  const LocalMap planes = parts_.map.of_sweep(parts_.prepared.map_cloud, found.icp.state, parts_.prepared.scene_range_m,
-                                              parts_.pose_by_elevation);
   Vector6d motion = Vector6d::Zero();
   motion.tail<3>() = direction;
   return {{parts_.map.first_cloud(), {origin, found.first->twist}, or_present(found.first->map)},
@@ -135,59 +135,76 @@ std::vector<MotionState> SecondSweep::places_along(const Registration& found, co
   return places;
 }
 
+/// Compares a place with those along a direction from it; returns the sweep registered where it has more in common with
+/// the first one, if there is such a place. `ambiguous` becomes true where it may as well lie elsewhere.
+std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direction, const LocalMap& planes,
+                                                    Registration& found, bool& ambiguous) const {
+  const SweepOverlap overlap = overlap_with_first(found, planes, direction);
+  const auto matches_of = [&](const Registration& registration) {
+    return overlap.matches(registration.icp.state, overlap.before({registration.first->twist}));
+  };
+  const auto matches_at = [&](const MotionState& place) {
+    return overlap.matches(place, overlap.before({place.twist}));
+  };
+  const auto late = [&] { return parts_.deadline.passed_after(parts_.first_map_ms); };
+  const auto overlaps_at = [&](const std::vector<MotionState>& places) {
+    return overlaps_of(
+        places.size(), [&](std::size_t i) { return mean_match(matches_at(places[i])); }, late);
+  };
+  const std::vector<double> of_found = matches_of(found);
+  const double here = mean_match(of_found);
+  const std::vector<MotionState> places = places_along(found, direction);
+  const std::vector<double> overlaps = overlaps_at(places);
+  found.cut = late();  // then some places were not looked at
+  if (found.cut || places.empty()) {
+    return std::nullopt;
+  }
+  std::optional<std::size_t> rival;  // in another basin
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (elsewhere(places[i].T_odom_lidar, found.icp.state.T_odom_lidar) && (!rival || overlaps[i] > overlaps[*rival])) {
+      rival = i;
+    }
+  }
+  const std::size_t most = most_of(overlaps);
+  const bool more_there = overlaps[most] > here;
+  // Where nothing shows the way, this is no evidence against a place.
+  ambiguous |= here > 0.0 && (more_there || (rival && !clearly_more(of_found, matches_at(places[*rival]))));
+  if (!more_there) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d half_step = 0.5 * SweepOverlap::kSigmaM * direction;
+  const std::vector<MotionState> around{places[most], moved(places[most], -half_step), moved(places[most], half_step)};
+  const MotionState& there = around[most_of(overlaps_at(around))];
+  Registration other = in_rounds(there, parts_.tracker.prior(there), 1);
+  other.starts = ++found.starts;
+  return mean_match(matches_of(other)) > here ? std::optional(std::move(other)) : std::nullopt;
+}
+
 /// No motion is known at the second sweep, and along a road it has several optima: at rest, too, when most of what it
 /// sees runs along the road, moves with the sensor as its rings on the ground do, or drives with it. Registers it again
-/// from where the two sweeps have most in common along the direction that the first result constrains least, until that
-/// is where it ends.
+/// from where the two sweeps have most in common along a direction that the first result constrains little, until that
+/// is where it ends. In a narrow window the way may lie along the second of these directions: turning there passes for
+/// a motion to the side, which is the first.
 void SecondSweep::move_to_most_overlap(Registration& found) const {
   const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
-  const Eigen::Vector3d weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors().col(0);
-  const auto late = [&] { return parts_.deadline.passed_after(parts_.first_map_ms); };
+  const Eigen::Matrix3d weakest_first = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors();
   for (int look = 0; look < kLooks; ++look) {
-    const SweepOverlap overlap = overlap_with_first(found, weakest);
-    const auto matches_of = [&](const Registration& registration) {
-      return overlap.matches(registration.icp.state, overlap.before({registration.first->twist}));
-    };
-    const auto matches_at = [&](const MotionState& place) {
-      return overlap.matches(place, overlap.before({place.twist}));
-    };
-    const auto overlaps_at = [&](const std::vector<MotionState>& places) {
-      return overlaps_of(
-          places.size(), [&](std::size_t i) { return mean_match(matches_at(places[i])); }, late);
-    };
-    const std::vector<double> of_found = matches_of(found);
-    const double here = mean_match(of_found);
-    const std::vector<MotionState> places = places_along(found, weakest);
-    const std::vector<double> overlaps = overlaps_at(places);
-    found.cut = late();  // then some places were not looked at
-    if (found.cut || places.empty()) {
+    const LocalMap planes = parts_.map.of_sweep(parts_.prepared.map_cloud, found.icp.state,
+                                                parts_.prepared.scene_range_m, parts_.pose_by_elevation);
+    std::optional<Registration> other;
+    bool ambiguous = false;
+    for (Eigen::Index i = 0; i < kDirections && !other && !found.cut; ++i) {
+      other = more_along(weakest_first.col(i), planes, found, ambiguous);
+    }
+    if (found.cut) {
       return;
     }
-    std::optional<std::size_t> rival;  // in another basin
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (elsewhere(places[i].T_odom_lidar, found.icp.state.T_odom_lidar) &&
-          (!rival || overlaps[i] > overlaps[*rival])) {
-        rival = i;
-      }
-    }
-    const std::size_t most = most_of(overlaps);
-    const bool more_there = overlaps[most] > here;
-    // Where nothing shows the way, this is no evidence against a place.
-    found.ambiguous = here > 0.0 && (more_there || (rival && !clearly_more(of_found, matches_at(places[*rival]))));
-    if (!more_there) {
+    if (!other) {
+      found.ambiguous = ambiguous;
       return;
     }
-    const Eigen::Vector3d half_step = 0.5 * SweepOverlap::kSigmaM * weakest;
-    const std::vector<MotionState> around{places[most], moved(places[most], -half_step),
-                                          moved(places[most], half_step)};
-    const MotionState& there = around[most_of(overlaps_at(around))];
-    Registration other = in_rounds(there, parts_.tracker.prior(there), 1);
-    other.starts = ++found.starts;
-    if (mean_match(matches_of(other)) <= here) {
-      return;
-    }
-    other.ambiguous = true;  // until it was looked at
-    found = std::move(other);
+    found = std::move(*other);
+    found.ambiguous = true;  // until it was looked at
   }
 }
 

@@ -1,6 +1,7 @@
 // At speed along a road: the second sweep fits at rest, too, and a sweep of another moment where it was not taken.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <utility>
 #include <vector>
@@ -23,6 +24,11 @@ class Motorway {
       : lorries_(std::move(lorries)), panel_size_m_(panel_size_m), bushes_(bushes), step_m_(step_m) {}
 
   double step_m() const { return step_m_; }
+  /// From now on the sensor sees so much to either side of straight ahead alone, and there are no barriers.
+  void look_ahead(double half_window_rad) {
+    half_window_rad_ = half_window_rad;
+    barriers_ = false;
+  }
 
   /// `run`: of the noise.
   std::vector<Eigen::Vector3f> sweep(std::size_t index, unsigned run = 0) {
@@ -33,7 +39,7 @@ class Motorway {
       for (double across = -9.0; across <= 9.0; across += 0.75) {
         add({along, across, -1.7});
       }
-      for (double z = -1.7; z <= 1.0; z += 0.3) {
+      for (double z = -1.7; barriers_ && z <= 1.0; z += 0.3) {
         add({along, -9.0, z});
         add({along, 9.0, z});
       }
@@ -61,7 +67,9 @@ class Motorway {
     for (double& coordinate : seen) {  // in this order with any compiler
       coordinate += error(noise_);
     }
-    points_.push_back(seen.cast<float>());
+    if (std::abs(std::atan2(seen.y(), seen.x())) <= half_window_rad_) {
+      points_.push_back(seen.cast<float>());
+    }
   }
 
   /// An upright square that faces along the road.
@@ -89,6 +97,8 @@ class Motorway {
   double panel_size_m_;
   bool bushes_;
   double step_m_;  // from sweep to sweep
+  double half_window_rad_ = std::numbers::pi;
+  bool barriers_ = true;
   std::vector<Eigen::Vector3f> points_;
   std::mt19937 noise_;
 };
@@ -163,6 +173,17 @@ TEST(StartAtSpeed, NorWhereItHasHardlyMoved) {
   for (const double step_m : {0.4, 0.5}) {
     SCOPED_TRACE(step_m);
     expect_found(Motorway({13.0, 24.0}, 1.0, true, step_m), {0, 1, 2, 3});
+  }
+}
+
+// Ahead there are lorries of its pace, and little that shows a motion to the side: that is not the way, though it is
+// constrained least.
+TEST(StartAtSpeed, NorInANarrowWindow) {
+  for (const double step_m : {0.9, 2.5}) {
+    SCOPED_TRACE(step_m);
+    Motorway motorway({13.0, 24.0}, 1.0, true, step_m);
+    motorway.look_ahead(0.6);
+    expect_found(motorway, {0, 1, 2, 3});
   }
 }
 

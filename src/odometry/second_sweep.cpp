@@ -196,11 +196,9 @@ void SecondSweep::move_to_most_overlap(Registration& found) const {
     for (Eigen::Index i = 0; i < kDirections && !other && !found.cut; ++i) {
       other = more_along(weakest_first.col(i), planes, found, ambiguous);
     }
-    if (found.cut) {
-      return;
-    }
     if (!other) {
-      found.ambiguous = ambiguous;
+      // Where time ran out, the doubt from before stays.
+      found.ambiguous = ambiguous || (found.cut && found.ambiguous);
       return;
     }
     found = std::move(*other);

@@ -69,6 +69,7 @@ class ConfigKey {
 /// The map of a configuration file below which expert keys are written; "expert.icp.gate" is another name of
 /// "icp.gate".
 inline constexpr std::string_view kExpertSection = "expert";
+/// The name of a key without that section before it, whether it is there or not.
 std::string_view without_expert(std::string_view name);
 
 /// A part of the configuration: the keys "NAME.…"; the first section has no name.

@@ -7,11 +7,9 @@
 #include <fmt/format.h>
 
 #include "io/bad_sweeps.hpp"
-#include "io/clouds/cloud_columns.hpp"
-#include "io/ros/driver_messages.hpp"
+#include "io/ros/cloud_message.hpp"
 #include "io/ros/scan_topic.hpp"
 #include "io/stamp_difference.hpp"
-#include "io/text.hpp"
 #include "io/times/sweep_period.hpp"
 #include "io/times/sweep_timing.hpp"
 #include "io/times/time_field.hpp"
@@ -19,59 +17,6 @@
 
 namespace rilo::detail {
 namespace {
-
-// A message of either form of clouds.
-struct CloudMessage {
-  std::optional<std::int64_t> stamp_ns;
-  std::string frame_id;
-  RawCloud cloud;
-  std::string sensor;  // what tells the sensors of one topic apart
-};
-
-// The message itself, or what its bytes say, kept in `parsed`.
-const PointCloud2& cloud_in(const RecordedMessage& message, const RecordedTopic& topic, const std::string& part,
-                            PointCloud2& parsed) {
-  if (message.cloud != nullptr) return *message.cloud;
-  parsed = parse_point_cloud2(message.bytes, encoding_of(topic), message.file, part);
-  return parsed;
-}
-
-// Of a PointCloud2 that has x, y and z; a CustomMsg's are always the same.
-std::vector<FieldInfo> fields_of(const RecordedMessage& message, const RecordedTopic& topic,
-                                 const std::string& time_field) {
-  if (scan_form(topic) != ScanForm::kPointCloud2) return {};
-  PointCloud2 parsed;
-  std::vector<Field> fields;
-  for (const PointField& field : cloud_in(message, topic, "", parsed).fields) fields.push_back({field.name});
-  return describe_fields(fields, find_roles(fields, time_field, {message.file}));
-}
-
-// Stamp and frame are set even when it throws because of the points.
-void parse_cloud(const RecordedMessage& message, const RecordedTopic& topic, const std::string& time_field,
-                 const std::string& part, CloudMessage& into) {
-  if (scan_form(topic) == ScanForm::kLivoxCustom) {
-    LivoxMessage livox = parse_livox(message.bytes, encoding_of(topic), {message.file, part});
-    const std::string sensor = "LiDAR " + std::to_string(livox.lidar_id) + " in frame " + in_quotes(livox.frame_id);
-    into = {livox.stamp_ns, std::move(livox.frame_id), std::move(livox.cloud), sensor};
-    return;
-  }
-  PointCloud2 parsed;
-  const PointCloud2& cloud = cloud_in(message, topic, part, parsed);
-  into.stamp_ns = cloud.stamp_ns;
-  into.frame_id = cloud.frame_id;
-  into.sensor = "frame " + in_quotes(cloud.frame_id);
-  into.cloud = columns_of(cloud, time_field, message.file, part);
-}
-
-PointTimeHints hints_of(const RecordedTopic& topic, const SourceOptions& options) {
-  PointTimeHints hints{options.point_time_unit, options.point_time_reference, {}, 0};
-  if (scan_form(topic) == ScanForm::kLivoxCustom) {  // by definition of the message
-    hints.unit = PointTimeUnit::kNanoseconds;
-    hints.unit_certain = true;
-    hints.reference = PointTimeReference::kStamp;
-  }
-  return hints;
-}
 
 class RecordingSource final : public ScanSource {
  public:
@@ -83,7 +28,7 @@ class RecordingSource final : public ScanSource {
     info_.path = path;
     info_.topic = topic_.name;
     if (topic_.messages) info_.sweeps = static_cast<std::size_t>(*topic_.messages);
-    look_ahead();
+    begin_timing(look_ahead());
   }
 
   std::optional<Sweep> next() override {
@@ -138,14 +83,24 @@ class RecordingSource final : public ScanSource {
   }
 
  private:
-  // The first messages give the period and say whether there are point times.
-  void look_ahead() {
-    constexpr std::size_t kLookedAt = 12;
+  struct Arrival {
+    std::int64_t header_ns = 0;
+    std::int64_t received_ns = 0;
+    std::size_t index = 0;
+  };
+
+  // What the first messages say about the period and the point times.
+  struct FirstMessages {
     std::vector<std::int64_t> stamps;
     std::vector<std::int64_t> received;
-    std::optional<std::string> promised;
-    std::vector<RawTimes> ends;
-    std::vector<Arrival> of_ends;
+    std::optional<std::string> promised;  // where the point times are
+    std::vector<RawTimes> ends;           // of the point times
+    std::vector<Arrival> of_ends;         // as long
+  };
+
+  FirstMessages look_ahead() {
+    constexpr std::size_t kLookedAt = 12;
+    FirstMessages first;
     recording_->select(topic_);
     for (std::size_t i = 0; i < kLookedAt; ++i) {
       CloudMessage cloud;
@@ -159,19 +114,23 @@ class RecordingSource final : public ScanSource {
       } catch (const IoError&) {
         // Reported when it is reached.
       }
-      if (!cloud.stamp_ns) continue;
-      if (!is_of_the_sensor(cloud)) continue;
-      stamps.push_back(*cloud.stamp_ns);
-      received.push_back(received_ns);
+      if (!cloud.stamp_ns || !is_of_the_sensor(cloud)) continue;
+      first.stamps.push_back(*cloud.stamp_ns);
+      first.received.push_back(received_ns);
       if (!cloud.cloud.times) continue;
-      promised = "field " + cloud.cloud.times->field;
-      add_time_ends(*cloud.cloud.times, cloud.cloud.points, ends);
-      of_ends.resize(ends.size(), {*cloud.stamp_ns, received_ns, i});
+      first.promised = "field " + cloud.cloud.times->field;
+      add_time_ends(*cloud.cloud.times, cloud.cloud.points, first.ends);
+      first.of_ends.resize(first.ends.size(), {*cloud.stamp_ns, received_ns, i});
     }
     recording_->select(topic_);
+    return first;
+  }
+
+  void begin_timing(const FirstMessages& first) {
+    const std::vector<std::int64_t>& stamps = first.stamps;
     // ROS' stamp of nothing.
     unstamped_ = stamps.size() > 1 && std::all_of(stamps.begin(), stamps.end(), [](auto stamp) { return stamp == 0; });
-    const auto period_s = mean_period_s(unstamped_ ? received : stamps);
+    const auto period_s = mean_period_s(unstamped_ ? first.received : stamps);
     info_.stamps_assumed = unstamped_ && !period_s;
     info_.period_s = period_s.value_or(1 / options_.assumed_rate_hz);
     if (period_s) note_odd_period("the messages", info_);
@@ -180,8 +139,8 @@ class RecordingSource final : public ScanSource {
     hints.assumed_period_s = info_.period_s;
     timing_.emplace(options_, hints, info_.period_s);
     std::vector<std::int64_t> stamps_of_ends;
-    for (const Arrival& arrival : of_ends) stamps_of_ends.push_back(stamp_of(arrival));
-    timing_->promise(promised, ends, stamps_of_ends);
+    for (const Arrival& arrival : first.of_ends) stamps_of_ends.push_back(stamp_of(arrival));
+    timing_->promise(first.promised, first.ends, stamps_of_ends);
   }
 
   // Damage may take more than one message.
@@ -205,11 +164,6 @@ class RecordingSource final : public ScanSource {
 
   std::string current_part() const { return "message " + std::to_string(current_ + 1) + " of " + topic_.name; }
 
-  struct Arrival {
-    std::int64_t header_ns = 0;
-    std::int64_t received_ns = 0;
-    std::size_t index = 0;
-  };
   std::int64_t stamp_of(const Arrival& arrival) const {
     if (!unstamped_) return arrival.header_ns;
     if (!info_.stamps_assumed) return arrival.received_ns;

@@ -30,7 +30,7 @@ phases=(test lint separate docs sanitize threads fuzz coverage instructions pack
 long='Elevation.(AnErrorIsFound|ASensorWithoutError)|BeamCalibration.AWorseUnit|Covariance|SameAsCommand'
 long+='|CompensationTrial.(NotCertain|TimedSweeps|DoesNotDepend|ObserversAreTold|ARun|PointsInAnotherOrder)'
 # What has threads of its own, and what runs in oneTBB's; and the programs with these tests.
-threaded='Pipeline|TimeBudget|Preprocess|IsolatedReturns|VoxelMean|BeamIndex|Deskew|LocalMap|UnevenMotion|Deadlines|CoarseRegistration|AdaptiveIcp|PrefetchSource|Live(Source|Queue)|View(Server|History)'
+threaded='Pipeline|TimeBudget|Preprocess|ValidPoints|IsolatedReturns|VoxelMean|BeamIndex|Deskew|LocalMap|UnevenMotion|Deadlines|CoarseRegistration|AdaptiveIcp|PrefetchSource|Live(Source|Queue)|View(Server|History)'
 threaded_programs='cloud_test map_test registration_test calibration_test pipeline_test io_test view_test'
 
 run_phase() {

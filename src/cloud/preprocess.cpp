@@ -4,11 +4,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <span>
-#include <utility>
 
-#include "cloud/elevation.hpp"
 #include "cloud/fixed_chunks.hpp"
 #include "cloud/measured_point.hpp"
 #include "cloud/point_block.hpp"
@@ -21,10 +18,8 @@ namespace {
 constexpr std::size_t kBeamSample = 4000;  // points: enough for 128 beams at little cost
 constexpr std::size_t kPhaseStep = 8;      // shares no factor with an odd stride: all points get their turn
 constexpr std::size_t kTimeSample = 100;   // points: a unit is wrong for nearly all of them
-constexpr float kTimeSlack = 0.25F;   // of the usual span of the times: what is beyond is of no return of the sweep ...
-constexpr double kMostStray = 0.02;   // ... unless that many points are, as in a sweep that is longer
-constexpr double kMostGrowth = 1.15;  // of the voxel in a sweep: its number of points changes by a third
-constexpr double kSceneSmoothing = 0.1;  // about a second at 10 Hz
+constexpr double kMostGrowth = 1.15;       // of the voxel in a sweep: its number of points changes by a third
+constexpr double kSceneSmoothing = 0.1;    // about a second at 10 Hz
 
 void find_angles(const BeamAngles& of, std::span<const Beam> beams, PointBlock::Lanes<float>& elevation_rad,
                  PointBlock::Lanes<float>& azimuth_rad) {
@@ -102,6 +97,63 @@ const PreparedSweep& Preprocessor::prepare(const SweepView& sweep) {
   return prepared_;
 }
 
+void Preprocessor::crop(const SweepView& sweep) {
+  const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
+  valid_.find(sweep, timed);
+  prepared_.flakes = valid_.flakes();
+  const float mid_s = timed ? valid_.middle_s() : 0.0F;
+  const auto mid_ns = static_cast<std::int64_t>(std::llround(static_cast<double>(mid_s) * 1e9));
+  if (__builtin_add_overflow(sweep.stamp_ns, mid_ns, &prepared_.mid_stamp_ns)) {
+    prepared_.mid_stamp_ns = sweep.stamp_ns;  // a stamp that no clock has
+  }
+  if (beams_tracked_) {
+    beam_index_.assign(sweep, beams_);
+  }
+  const std::size_t kept = valid_.count();
+  const bool intense = intensities_kept_ && sweep.intensities.size() == sweep.points.size();
+  cropped_.points.resize(kept);
+  cropped_.offsets_s.resize(timed ? kept : 0);
+  cropped_.intensities.resize(intense ? kept : 0);
+  cropped_beams_.resize(beams_tracked_ ? kept : 0);
+  for_fixed_chunks(sweep.points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    crop_chunk(sweep, mid_s, first, last, valid_.before(chunk));
+  });
+}
+
+/// The valid ones of the points first … last − 1, at their right angles, to place `to` and those behind it.
+void Preprocessor::crop_chunk(const SweepView& sweep, float mid_s, std::size_t first, std::size_t last,
+                              std::size_t to) {
+  const bool timed = !cropped_.offsets_s.empty();
+  const bool intense = !cropped_.intensities.empty();
+  PointBlock p;
+  alignas(64) PointBlock::Lanes<float> elevation{};
+  alignas(64) PointBlock::Lanes<float> azimuth{};
+  for_each_block(first, last, [&](std::size_t begin, std::size_t n) {
+    const std::span valid = valid_.flags().subspan(begin, n);
+    p.load(&sweep.points[begin], n);
+    if (elevation_turn_) {
+      rotate_elevation(p, *elevation_turn_);
+    }
+    if (beams_tracked_) {
+      const std::span beams(&beams_[begin], n);
+      find_angles(beam_angles_, beams, elevation, azimuth);
+      turn_beams(p, elevation, azimuth);
+      keep(
+          valid, [&](std::size_t i) { return beams[i]; }, cropped_beams_.data() + to);
+    }
+    if (timed) {
+      keep(
+          valid, [&](std::size_t i) { return sweep.times_s[begin + i] - mid_s; }, cropped_.offsets_s.data() + to);
+    }
+    if (intense) {
+      keep(
+          valid, [&](std::size_t i) { return sweep.intensities[begin + i]; }, cropped_.intensities.data() + to);
+    }
+    to += keep(
+        valid, [&](std::size_t i) { return p.at(i); }, cropped_.points.data() + to);
+  });
+}
+
 void Preprocessor::update_scene_range() {
   if (prepared_.source.size() == 0) {
     return;
@@ -166,166 +218,11 @@ void Preprocessor::sample_beams() {
 void Preprocessor::reset() {
   beam_angles_ = BeamAngles{};
   sample_phase_ = 0;
-  elevation_offset_rad_ = 0.0;
-  times_ = {};
+  elevation_turn_.reset();
+  valid_.reset();
   source_points_ = static_cast<double>(config_.source_points);
   source_voxel_m_ = 0.0;
   prepared_.scene_range_m = 0.0;
-}
-
-/// Which points are finite and within range, and the span of their times.
-void Preprocessor::find_valid(const SweepView& sweep, bool timed) {
-  const std::size_t count = sweep.points.size();
-  valid_.resize(count);
-  chunks_.assign(chunk_count(count), {});
-  // (0, 0, 0) stands for no return.
-  const float min2 =
-      std::max(static_cast<float>(config_.min_range_m * config_.min_range_m), std::numeric_limits<float>::min());
-  const auto max2 = static_cast<float>(config_.max_range_m * config_.max_range_m);
-  for_fixed_chunks(count, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    PointBlock p;
-    alignas(64) PointBlock::Lanes<float> times{};
-    alignas(64) PointBlock::Lanes<int> valid;
-    alignas(64) PointBlock::Lanes<float> begins;
-    alignas(64) PointBlock::Lanes<float> ends;
-    Chunk& found = chunks_[chunk];
-    begins.fill(found.times.begin_s);
-    ends.fill(found.times.end_s);
-    for_each_block(begin, end, [&](std::size_t first, std::size_t n) {
-      p.load(&sweep.points[first], n);
-      if (timed) {
-        std::copy_n(sweep.times_s.begin() + static_cast<std::ptrdiff_t>(first), n, times.begin());
-      }
-      find_in_range(p, min2, max2, times, valid);
-      std::fill(valid.begin() + static_cast<std::ptrdiff_t>(n), valid.end(), 0);
-      std::transform(valid.begin(), valid.begin() + static_cast<std::ptrdiff_t>(n), &valid_[first],
-                     [](int in_range) { return static_cast<std::uint8_t>(in_range); });
-      if (timed) {
-        widen_spans(times, valid, begins, ends);
-      }
-    });
-    found.times = {*std::min_element(begins.begin(), begins.end()), *std::max_element(ends.begin(), ends.end())};
-  });
-}
-
-/// A single time that is none of the sweep, as of a packet from elsewhere, would move the middle of all sweeps after
-/// it.
-void Preprocessor::drop_stray_times(const SweepView& sweep) {
-  TimeSpan now;
-  for (const Chunk& chunk : chunks_) {
-    now.widen(chunk.times);
-  }
-  const TimeSpan usual = times_.empty() ? bulk_of(sweep.times_s, valid_) : times_;
-  const float slack = kTimeSlack * usual.length_s();
-  const TimeSpan allowed{usual.begin_s - slack, usual.end_s + slack};
-  if (now.empty() || !(slack > 0.0F) || allowed.contains(now)) {
-    return;
-  }
-  const auto is_stray = [&](std::size_t i) { return valid_[i] != 0 && !allowed.contains(sweep.times_s[i]); };
-  std::size_t strays = 0;
-  for (std::size_t i = 0; i < valid_.size(); ++i) {
-    strays += is_stray(i) ? 1 : 0;
-  }
-  const auto points = std::accumulate(valid_.begin(), valid_.end(), std::size_t{0});
-  if (static_cast<double>(strays) > kMostStray * static_cast<double>(points)) {
-    return;
-  }
-  for (Chunk& chunk : chunks_) {
-    chunk.times = {};
-  }
-  for (std::size_t i = 0; i < valid_.size(); ++i) {
-    valid_[i] = is_stray(i) ? 0 : valid_[i];
-    if (valid_[i] != 0) {
-      chunks_[i / kChunkSize].times.widen({sweep.times_s[i], sweep.times_s[i]});
-    }
-  }
-}
-
-/// Returns how many. In clear air the isolated returns are those of poles and twigs, which say where the sensor is.
-std::size_t Preprocessor::drop_flakes(const SweepView& sweep) {
-  std::size_t dropped = 0;
-  if (config_.most_isolated < 1.0 && isolated_.more_than(config_.most_isolated, sweep.points, valid_)) {
-    for (std::size_t i = 0; i < valid_.size(); ++i) {
-      const bool flake = valid_[i] != 0 && isolated_.isolated(i);
-      valid_[i] = flake ? 0 : valid_[i];
-      dropped += flake ? 1 : 0;
-    }
-  }
-  return dropped;
-}
-
-/// Where the valid points of each chunk go; how many there are.
-std::size_t Preprocessor::place_chunks() {
-  std::size_t total = 0;
-  for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
-    const auto begin = valid_.begin() + static_cast<std::ptrdiff_t>(chunk * kChunkSize);
-    const auto end = valid_.begin() + static_cast<std::ptrdiff_t>(std::min(valid_.size(), (chunk + 1) * kChunkSize));
-    chunks_[chunk].to = std::exchange(total, std::accumulate(begin, end, total));
-  }
-  return total;
-}
-
-void Preprocessor::crop(const SweepView& sweep) {
-  const bool timed = config_.deskew && sweep.times_s.size() == sweep.points.size();
-  find_valid(sweep, timed);
-  if (timed) {
-    drop_stray_times(sweep);
-  }
-  prepared_.flakes = drop_flakes(sweep);
-  const std::size_t kept = place_chunks();
-  const float mid_s = timed ? middle_of_times() : 0.0F;
-  const auto mid_ns = static_cast<std::int64_t>(std::llround(static_cast<double>(mid_s) * 1e9));
-  if (__builtin_add_overflow(sweep.stamp_ns, mid_ns, &prepared_.mid_stamp_ns)) {
-    prepared_.mid_stamp_ns = sweep.stamp_ns;  // a stamp that no clock has
-  }
-  if (beams_tracked_) {
-    beam_index_.assign(sweep, beams_);
-  }
-  cropped_.points.resize(kept);
-  cropped_.offsets_s.resize(timed ? kept : 0);
-  cropped_beams_.resize(beams_tracked_ ? kept : 0);
-  const bool intense = intensities_kept_ && sweep.intensities.size() == sweep.points.size();
-  cropped_.intensities.resize(intense ? kept : 0);
-  const bool rotated = elevation_offset_rad_ != 0.0;
-  const ElevationRotation rotation(elevation_offset_rad_);
-  for_fixed_chunks(sweep.points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    PointBlock p;
-    alignas(64) PointBlock::Lanes<float> elevation{};
-    alignas(64) PointBlock::Lanes<float> azimuth{};
-    std::size_t to = chunks_[chunk].to;
-    for_each_block(first, last, [&](std::size_t begin, std::size_t n) {
-      const std::span valid(&valid_[begin], n);
-      p.load(&sweep.points[begin], n);
-      if (rotated) {
-        rotate_elevation(p, rotation);
-      }
-      if (beams_tracked_) {
-        const std::span beams(&beams_[begin], n);
-        find_angles(beam_angles_, beams, elevation, azimuth);
-        turn_beams(p, elevation, azimuth);
-        keep(
-            valid, [&](std::size_t i) { return beams[i]; }, cropped_beams_.data() + to);
-      }
-      if (timed) {
-        keep(
-            valid, [&](std::size_t i) { return sweep.times_s[begin + i] - mid_s; }, cropped_.offsets_s.data() + to);
-      }
-      if (intense) {
-        keep(
-            valid, [&](std::size_t i) { return sweep.intensities[begin + i]; }, cropped_.intensities.data() + to);
-      }
-      to += keep(
-          valid, [&](std::size_t i) { return p.at(i); }, cropped_.points.data() + to);
-    });
-  });
-}
-
-/// Middle of the span of the times (s) over all sweeps so far, also for a sweep without points; 0 before the first.
-float Preprocessor::middle_of_times() {
-  for (const Chunk& chunk : chunks_) {
-    times_.widen(chunk.times);
-  }
-  return times_.empty() ? 0.0F : 0.5F * (times_.begin_s + times_.end_s);
 }
 
 }  // namespace rilo

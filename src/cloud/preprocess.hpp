@@ -2,16 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <vector>
 
 #include "cloud/beam_angles.hpp"
 #include "cloud/beam_index.hpp"
 #include "cloud/beam_sample.hpp"
-#include "cloud/isolated_returns.hpp"
+#include "cloud/elevation.hpp"
 #include "cloud/thinning.hpp"
-#include "cloud/time_span.hpp"
 #include "cloud/timed_cloud.hpp"
+#include "cloud/valid_points.hpp"
 #include "cloud/voxel_mean.hpp"
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/stage_config.hpp"
@@ -42,13 +42,15 @@ class Preprocessor {
   static constexpr int kFirstPasses = 4;  ///< the first sweep is downsampled as often until its scale is found
 
   explicit Preprocessor(const PreprocessConfig& config)
-      : config_(config), source_points_(static_cast<double>(config.source_points)) {}
+      : config_(config), valid_(config), source_points_(static_cast<double>(config.source_points)) {}
 
   /// The result is valid until the next call.
   const PreparedSweep& prepare(const SweepView& sweep);
 
   /// Angle (rad) added to the elevation angle of every point from now on.
-  void set_elevation_offset(double offset_rad) { elevation_offset_rad_ = offset_rad; }
+  void set_elevation_offset(double offset_rad) {
+    elevation_turn_ = offset_rad != 0.0 ? std::optional(ElevationRotation(offset_rad)) : std::nullopt;
+  }
 
   /// Angles added to those of single beams from now on.
   void set_beam_angles(const BeamAngles& angles) { beam_angles_ = angles; }
@@ -71,34 +73,23 @@ class Preprocessor {
   void reset();
 
  private:
-  /// What is kept of a chunk of the sweep.
-  struct Chunk {
-    std::size_t to = 0;  // place of the first in the cropped cloud
-    TimeSpan times;
-  };
   void crop(const SweepView& sweep);
-  void find_valid(const SweepView& sweep, bool timed);
-  std::size_t drop_flakes(const SweepView& sweep);
-  std::size_t place_chunks();
-  void drop_stray_times(const SweepView& sweep);
-  float middle_of_times();
+  void crop_chunk(const SweepView& sweep, float mid_s, std::size_t first, std::size_t last, std::size_t to);
   void sample_beams();
   void downsample(double source_voxel_m);
   void adapt_voxel(double most_growth);
   void update_scene_range();
 
   PreprocessConfig config_;
+  ValidPoints valid_;
   TimedCloud cropped_;
   PreparedSweep prepared_;
-  std::vector<Chunk> chunks_;
-  std::vector<std::uint8_t> valid_;  // of the points of the sweep: 0 or 1
-  IsolatedReturns isolated_;
   std::vector<float> ranges_;
   VoxelMean map_mean_;
   VoxelMean source_mean_;
   double source_points_;       // aimed for
   double source_voxel_m_ = 0;  // 0: no sweep has been seen
-  double elevation_offset_rad_ = 0;
+  std::optional<ElevationRotation> elevation_turn_;
   bool beams_tracked_ = false;
   bool intensities_kept_ = false;
   BeamIndex beam_index_;
@@ -106,9 +97,6 @@ class Preprocessor {
   std::vector<Beam> beams_;          // of the points of the sweep
   std::vector<Beam> cropped_beams_;  // of those of cropped_
   std::size_t sample_phase_ = 0;
-  // Span of the per-point times over all sweeps so far. The span of a single sweep jitters with the returns near its
-  // seam, and the reference time must not.
-  TimeSpan times_;
 };
 
 }  // namespace rilo

@@ -9,8 +9,6 @@
 #include "odometry/motion_prior.hpp"
 #include "odometry/registration_stage.hpp"
 #include "odometry/sweep_record.hpp"
-#include "registration/plane_residuals.hpp"
-#include "registration/uneven_motion.hpp"
 
 namespace rilo {
 
@@ -144,31 +142,32 @@ InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const M
   return init;
 }
 
+RegistrationParts Pipeline::registration_parts(const PreparedSweep& prepared) {
+  const auto map_points = static_cast<double>(prepared.map_cloud.size());
+  return {.config = config_,
+          .prepared = prepared,
+          .tracker = tracker_,
+          .map = map_,
+          .initial_pose = initial_pose_,
+          .pose_by_elevation = calibration_.pose_by_elevation(),
+          .sigma_th_m = threshold_.sigma_th_m(),
+          .usual_sigma_th_m = threshold_.usual_sigma_th_m(),
+          .period_s = period_s(),
+          .after_gap = after_gap(),
+          .contradicted = contradicted_,
+          .deadline = deadline(budget_.ms(Work::kSettle) + budget_.ms(Work::kInsert, map_points)),
+          .first_map_ms = budget_.ms(Work::kInsert, static_cast<double>(map_.first_cloud().size()) + map_points)};
+}
+
 Registration Pipeline::register_finely(const PreparedSweep& prepared, const MotionState& predicted,
                                        const InitialPose& init, SweepResult& result) {
   result.stats.sigma_th_m = threshold_.sigma_th_m();
-  const double period_s = static_cast<double>(sweep_clock_.period_ns()) * 1e-9;
-  const auto map_points = static_cast<double>(prepared.map_cloud.size());
   if (map_.sweeps() == 1 && shares_.source < 1.0) {
     // Its second sweep compensates the first one again and again.
-    map_.thin_first(std::min(1.0, map_points / static_cast<double>(map_.first_cloud().size())));
+    const auto first_points = static_cast<double>(map_.first_cloud().size());
+    map_.thin_first(std::min(1.0, static_cast<double>(prepared.map_cloud.size()) / first_points));
   }
-  const Deadline end = deadline(budget_.ms(Work::kSettle) + budget_.ms(Work::kInsert, map_points));
-  const RegistrationParts parts{
-      .config = config_,
-      .prepared = prepared,
-      .tracker = tracker_,
-      .map = map_,
-      .initial_pose = initial_pose_,
-      .pose_by_elevation = calibration_.pose_by_elevation(),
-      .sigma_th_m = threshold_.sigma_th_m(),
-      .usual_sigma_th_m = threshold_.usual_sigma_th_m(),
-      .period_s = period_s,
-      .after_gap = after_gap(),
-      .contradicted = contradicted_,
-      .deadline = end,
-      .first_map_ms = budget_.ms(Work::kInsert, static_cast<double>(map_.first_cloud().size()) + map_points)};
-  Registration registration = fine_registration(parts, predicted, init);
+  Registration registration = fine_registration(registration_parts(prepared), predicted, init);
   const IcpResult& icp = registration.icp;
   const bool new_first_map = registration.first && registration.first->map;
   registration.stands_out =
@@ -192,85 +191,6 @@ Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& reg
   result.stats.map_score = registration.score;
   result.status = judgement.status;
   return judgement;
-}
-
-void Pipeline::accept(const PreparedSweep& prepared, Registration registration, MotionVerdict motion,
-                      SweepResult& result) {
-  const IcpResult& icp = registration.icp;
-  Vector6d twist_before = tracker_.trusted().twist;
-  if (registration.first) {
-    twist_before = registration.first->twist;  // the map began with a guess
-    if (registration.first->map) {
-      map_.replace(std::move(*registration.first->map));
-    }
-  }
-
-  const bool degenerate = result.status == OdometryStatus::kDegenerate;
-  const Vector6d uneven = uneven_motion(prepared.source, map_.map(), icp, registration.sigma_th_m, config_.icp,
-                                        PoseCovariance::evidence_share(config_.icp), kSampleStride);
-  const double since_s = tracker_.since_trusted_s();
-  Vector6d acceleration = Vector6d::Zero();
-  if (since_s > 0.0) {
-    acceleration = (icp.state.twist - twist_before) / since_s;
-  }
-  // What this sweep saw, whatever those before did; one that was found again may be degenerate, too.
-  const bool sees_too_little = is_degenerate(icp, config_.health);
-  const auto sweep_s = static_cast<double>(span_of(prepared.source).length_s());
-  result.covariance = pose_covariance_.of(icp, degenerate || sees_too_little, acceleration, sweep_s, uneven);
-  const Eigen::Vector3d step = tracker_.accept(icp, motion, sees_too_little);
-
-  if (map_.sweeps() >= 2) {
-    threshold_.update(registration.T_init, tracker_.state().T_odom_lidar, step - last_step_);
-    result.stats.gamma = threshold_.gamma();
-    result.stats.deviation_m = threshold_.deviation_m();
-  }
-  last_step_ = step;
-
-  // In doubt the prediction or a search decides on the pose, and not the angles: its derivative stays what it was.
-  if (result.status == OdometryStatus::kOk) {
-    calibration_.learn(prepared, icp, registration.sigma_th_m, config_.icp, established(), map_.map());
-  }
-  calibration_.apply_to(preprocessor_);
-
-  judge_.accept(prepared, registration, degenerate);
-  initial_pose_.learn(result.stats.map_score, established() ? std::optional(registration.quality) : std::nullopt);
-  initial_pose_.keep_target(prepared.source, tracker_.state().twist);
-  const StageTimes& times = result.stats.times;
-  budget_.learn(Work::kSettle, 1.0,
-                clock_.total_ms() - times.preprocess_ms - times.initial_pose_ms - times.registration_ms);
-  insert(prepared.map_cloud, result,
-         [&](const TimedCloud& cloud) { map_.insert(cloud, tracker_.state(), calibration_.pose_by_elevation()); });
-  calibration_.move(map_.map());
-  learn_rest(registration, result);
-  contradicted_ = false;
-}
-
-void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,
-                    SweepResult& result) {
-  result.covariance = unknown_velocity_covariance();
-  if (map_.sweeps() > 1) {
-    threshold_.widen();  // the second sweep has no prediction that could be off
-  }
-  tracker_.lose(predicted, claim);
-  if (result.status == OdometryStatus::kEmpty) {
-    return;  // nothing contradicts the map
-  }
-  contradicted_ = true;
-  if (judge_.give_up(established(), periods_since_trusted())) {
-    begin_map(prepared, predicted, result);
-  }
-}
-
-void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result) {
-  result.status = OdometryStatus::kInitialising;
-  contradicted_ = false;
-  judge_.begin(prepared);
-  insert(prepared.map_cloud, result, [&](const TimedCloud& cloud) {
-    map_.begin(cloud, state, prepared.scene_range_m, calibration_.pose_by_elevation());
-  });
-  tracker_.begin(state);
-  threshold_.reset();
-  initial_pose_.begin(prepared.source, state, map_.map());
 }
 
 void Pipeline::finish(SweepResult& result) {
@@ -315,9 +235,9 @@ double Pipeline::start_over() {
   return calibration_.elevation().applied_rad();
 }
 
-double Pipeline::periods_since_trusted() const {
-  return tracker_.since_trusted_s() / (1e-9 * static_cast<double>(sweep_clock_.period_ns()));
-}
+double Pipeline::period_s() const { return static_cast<double>(sweep_clock_.period_ns()) * 1e-9; }
+
+double Pipeline::periods_since_trusted() const { return tracker_.since_trusted_s() / period_s(); }
 
 bool Pipeline::after_gap() const { return periods_since_trusted() - judge_.lost_in_a_row() > kGapPeriods; }
 

@@ -47,10 +47,13 @@ class Pipeline {
   void register_to_map(const PreparedSweep& prepared, SweepResult& result);
   MotionState predict(const PreparedSweep& prepared);
   InitialPose choose_initial_pose(const PreparedSweep& prepared, const MotionState& predicted, SweepResult& result);
+  RegistrationParts registration_parts(const PreparedSweep& prepared);
   Registration register_finely(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init,
                                SweepResult& result);
   Judgement judge(const PreparedSweep& prepared, const Registration& registration, SweepResult& result);
   void accept(const PreparedSweep& prepared, Registration registration, MotionVerdict motion, SweepResult& result);
+  Matrix6d covariance_of(const PreparedSweep& prepared, const Registration& registration, const Vector6d& twist_before,
+                         bool vague);
   void lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,
             SweepResult& result);
   void begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result);
@@ -60,6 +63,7 @@ class Pipeline {
   void finish(SweepResult& result);
 
   bool established() const;
+  double period_s() const;
   /// Time since the last sweep that was accepted.
   double periods_since_trusted() const;
   /// Whether sweeps are missing since then, those that were lost left out.

@@ -1,15 +1,11 @@
-// The sensor's elevation error: Jacobians, the map that follows it, and the estimate on simulated drives.
+// The sensor's elevation error: Jacobians, the map that follows it, and the calibration on simulated drives.
 #include "cloud/elevation.hpp"
 
 #include <cmath>
-#include <numbers>
-#include <numeric>
 #include <random>
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "calibration/elevation_offset.hpp"
 #include "calibration/sensor_calibration.hpp"
 #include "map/local_map.hpp"
 #include "registration/registration_scenes.hpp"
@@ -85,46 +81,6 @@ TEST(Elevation, TheMapMovesAsIfItHadBeenMadeOfTurnedPoints) {
   EXPECT_NEAR(plane.point.z(), centre.z(), 1e-4);
 }
 
-/// Half the sum of squares when the elevation angles of sweep and map grow by `angle_rad`.
-double cost_at(double angle_rad, const TimedCloud& source, LocalMap map, const MotionState& state,
-               const PoseDerivative& pose_derivative, const AdaptiveIcpConfig& config) {
-  TimedCloud turned = source;
-  for (Eigen::Vector3f& p : turned.points) {
-    p = ElevationRotation(angle_rad)(p);
-  }
-  map.shift_elevation(angle_rad, pose_derivative);
-  return 0.5 * linearise(turned, map, state, 1e3, config).squared_error;
-}
-
-TEST(Elevation, TheGradientAgreesWithDifferences) {
-  SceneSampling sampling;
-  sampling.spacing_m = 0.05;
-  LocalMap map(scene_map_config());
-  map.set_scene_range(6.0);
-  map.insert(make_box_room({9.3, 7.1, 3.3}, sampling), SE3::Identity());
-  Vector6d moved;
-  moved << 0.0, 0.002, 0.01, 0.6, 0.2, 0.01;
-  IcpResult icp;
-  icp.state.T_odom_lidar = se3_exp(moved);
-  icp.posterior_information = 1e9 * Matrix12d::Identity();
-  icp.unit_information = 1.0;
-  sampling.spacing_m = 0.11;
-  sampling.T_world_sensor = icp.state.T_odom_lidar;
-  const TimedCloud source{make_box_room({9.3, 7.1, 3.3}, sampling), {}};
-  icp.state.T_odom_lidar.translation().z() += 0.01;  // residuals that are not noise alone
-  AdaptiveIcpConfig config;
-  config.gate = 0.001;
-  const PoseDerivative pose_derivative{Eigen::Vector3d(0.1, 0.2, 0.3), Eigen::Vector3d(0.01, -0.02, 0.03),
-                                       Eigen::Vector3d(0, 0, 0.4)};
-  const ElevationInformation sweep = elevation_information(source, map, icp, 1e3, config, pose_derivative, 1);
-  constexpr double kStep = 2e-4;
-  const double numeric = (cost_at(kStep, source, map, icp.state, pose_derivative, config) -
-                          cost_at(-kStep, source, map, icp.state, pose_derivative, config)) /
-                         (2 * kStep);
-  EXPECT_GT(std::abs(numeric), 1.0);
-  EXPECT_NEAR(-sweep.gradient, numeric, 0.05 * std::abs(numeric));  // points change voxels
-}
-
 /// A room as a sensor sees it whose elevation angles are 0.3° too small.
 std::vector<Eigen::Vector3f> room_seen_low(const SceneSampling& sampling) {
   std::vector<Eigen::Vector3f> points = make_box_room({9.3, 7.1, 3.3}, sampling);
@@ -159,92 +115,6 @@ TEST(Elevation, TheMapMovesOnceAndNotBeforeItIsTold) {
   EXPECT_NE(before, after);
   calibration.move(map);
   EXPECT_EQ(map.points(), after);
-}
-
-TEST(Elevation, NothingSeenNothingSaid) {
-  const ElevationInformation none = elevation_information({}, LocalMap({}), {}, 0.3, {}, {}, 1);
-  EXPECT_EQ(none.information, 0.0);
-  ElevationOffsetEstimator estimator({});
-  for (int i = 0; i < 50; ++i) {
-    estimator.add(none);
-  }
-  EXPECT_EQ(estimator.estimate().rad, 0.0);
-  EXPECT_TRUE(std::isinf(estimator.estimate().sigma_rad));
-  EXPECT_EQ(estimator.advance(), 0.0);
-}
-
-// What pose and velocity can explain says nothing of the angle, and moves with it.
-TEST(Elevation, PoseAndVelocityAreEliminated) {
-  const LocalMap map = test::map_of(test::rimless_room(0.13, 0.0));
-  IcpResult icp;
-  icp.state.T_odom_lidar = se3_exp(test::twist(0.0, 0.002, 0.01, 0.6, 0.2, 0.01));
-  TimedCloud source{test::seen_from(icp.state.T_odom_lidar, test::rimless_room(0.23, 0.37, 1.3)), {}};
-  for (const Eigen::Vector3f& p : source.points) {
-    source.offsets_s.push_back(static_cast<float>(0.05 / test::kPi) * std::atan2(p.y(), p.x()));
-  }
-  AdaptiveIcpConfig config;
-  config.gate = 0.001;
-  constexpr double kUnitWeights = 1e3;
-  icp.posterior_information = linearise(source, map, icp.state, kUnitWeights, config).hessian();
-  icp.posterior_information.diagonal().array() += 1.0;
-  icp.unit_information = 1.0;
-
-  constexpr double kStep = 5e-4;
-  const auto sums_at = [&](double angle_rad) {
-    TimedCloud turned = source;
-    for (Eigen::Vector3f& p : turned.points) {
-      p = ElevationRotation(angle_rad)(p);
-    }
-    LocalMap moved = map;
-    moved.shift_elevation(angle_rad, {});
-    return linearise(turned, moved, icp.state, kUnitWeights, config);
-  };
-  const NormalEquations less = sums_at(-kStep);
-  const NormalEquations more = sums_at(kStep);
-  const Vector12d mixed = (more.gradient() - less.gradient()) / (2.0 * kStep);
-  const double square =
-      0.5 * (more.squared_error + less.squared_error - 2.0 * sums_at(0.0).squared_error) / (kStep * kStep);
-  const Vector12d follows = -icp.posterior_information.ldlt().solve(mixed);
-
-  const ElevationInformation sweep = elevation_information(source, map, icp, kUnitWeights, config, {}, 1);
-  const double expected = square + mixed.dot(follows);
-  EXPECT_LT(expected, 0.5 * square) << "the pose explains most of it";
-  EXPECT_NEAR(sweep.information, expected, 0.1 * expected);
-  EXPECT_LT((sweep.pose.rotation - follows.head<3>()).norm(), 0.1 * follows.head<3>().norm());
-  EXPECT_LT((sweep.pose.translation - follows.segment<3>(3)).norm(), 0.1 * follows.segment<3>(3).norm());
-
-  // What an error of the lower beams alone does to the gradient, after the pose has followed.
-  constexpr std::size_t kLower = kBands / 2 - 25;  // bands up to -10°
-  TimedCloud lower = source;
-  for (Eigen::Vector3f& p : lower.points) {
-    if (std::atan2(p.z(), std::hypot(p.x(), p.y())) < -10.0 * kDegree) {
-      p = ElevationRotation(-kStep)(p);
-    }
-  }
-  const double gains =
-      (elevation_information(lower, map, icp, kUnitWeights, config, {}, 1).gradient - sweep.gradient) / kStep;
-  const Vector12d pulls =
-      (linearise(lower, map, icp.state, kUnitWeights, config).gradient() - sums_at(0.0).gradient()) / kStep;
-  const auto of_lower = [&](const ElevationInformation& of) {
-    return std::accumulate(of.by_band.begin(), of.by_band.begin() + kLower, 0.0);
-  };
-  EXPECT_GT(std::abs(follows.dot(pulls)), 0.5 * std::abs(gains)) << "the pose takes up most of it";
-  EXPECT_NEAR(of_lower(sweep), gains - follows.dot(pulls), 0.1 * std::abs(gains));
-  IcpResult held = icp;
-  held.posterior_information = 1e12 * Matrix12d::Identity();
-  EXPECT_NEAR(of_lower(elevation_information(source, map, held, kUnitWeights, config, {}, 1)), gains,
-              0.02 * std::abs(gains));
-
-  // A registration that trusts its residuals less, since bushes scatter more than planes: all counts less, and the pose
-  // explains no more than before.
-  icp.unit_information *= 0.4;
-  icp.posterior_information *= 0.4;
-  const ElevationInformation vague = elevation_information(source, map, icp, kUnitWeights, config, {}, 1);
-  EXPECT_NEAR(vague.information, 0.4 * sweep.information, 1e-6 * sweep.information);
-  EXPECT_NEAR(vague.gradient, 0.4 * sweep.gradient, 1e-6 * std::abs(sweep.gradient));
-  EXPECT_NEAR(vague.by_band[kLower - 1], 0.4 * sweep.by_band[kLower - 1], 1e-6 * sweep.information);
-  EXPECT_NEAR(vague.jacobian_m, sweep.jacobian_m, 1e-6 * sweep.jacobian_m);
-  EXPECT_LT((vague.pose.rotation - sweep.pose.rotation).norm(), 1e-6 * sweep.pose.rotation.norm());
 }
 
 TEST(Elevation, OfAYoungMapThePoseStillFollowsTheAngle) {

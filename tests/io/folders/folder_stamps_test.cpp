@@ -1,0 +1,140 @@
+// When the sweeps of a folder were taken: by their names, by files beside them, by their numbers.
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/folders/stamp_list.hpp"
+#include "io/io_test_util.hpp"
+#include "rilo/io/scan_source.hpp"
+
+namespace rilo::test {
+namespace {
+
+std::vector<std::int64_t> stamps_of(const std::filesystem::path& path) {
+  std::vector<std::int64_t> stamps;
+  const auto source = open_scan_source(path);
+  while (const auto sweep = source->next()) stamps.push_back(sweep->stamp_ns);
+  return stamps;
+}
+
+TEST(FolderStampsTest, StampsFromTheNamesOrTheTimesFile) {
+  const TempDir folder;
+  folder.write("n/1326652795280148.bin", bin_of(1));
+  folder.write("n/1326652795480148.bin", bin_of(2));
+  EXPECT_EQ(open_scan_source(folder / "n")->next()->stamp_ns, 1'326'652'795'280'148'000);
+  EXPECT_NEAR(open_scan_source(folder / "n")->info().period_s, 0.2, 1e-6);
+  folder.write("s/1326652795.5.bin", bin_of(1));
+  EXPECT_EQ(open_scan_source(folder / "s")->next()->stamp_ns, 1'326'652'795'500'000'000);
+  folder.write("d/1673400472138016708.pcd.bin", bin_of(1));
+  EXPECT_EQ(open_scan_source(folder / "d")->next()->stamp_ns, 1'673'400'472'138'016'708);
+  folder.write("t/1.bin", bin_of(1));
+  folder.write("t/times.txt", "77.5\n");
+  EXPECT_EQ(open_scan_source(folder / "t")->next()->stamp_ns, 77'500'000'000);
+}
+
+TEST(FolderStampsTest, NamesOfDecimalSecondsInTheOrderOfTime) {
+  const TempDir folder;
+  for (const char* name : {"1700000000.4234936", "1700000000.523506", "1700000000.6235182", "1700000000.05"}) {
+    folder.write("s/" + std::string(name) + ".bin", bin_of(1));
+  }
+  const auto source = open_scan_source(folder / "s");
+  std::vector<std::int64_t> hundredths;
+  while (const auto sweep = source->next())
+    hundredths.push_back((sweep->stamp_ns - 1'700'000'000'000'000'000) / 10'000'000);
+  EXPECT_EQ(hundredths, (std::vector<std::int64_t>{5, 42, 52, 62}));
+  EXPECT_FALSE(source->info().stamps_assumed);
+}
+
+TEST(FolderStampsTest, StampsFromTimestampsBesideOrAbove) {
+  const std::vector<std::int64_t> kExpected{1'317'042'145'951'199'337, 1'317'042'146'054'503'000};
+  for (const char* text :
+       {"2011-09-26 13:02:25.951199337\n2011-09-26 13:02:26.054503000\n",
+        "# ns\n1317042145951199337\n\n1317042146054503000\n", "1317042145.951199337\n1317042146.054503\n"}) {
+    for (const char* place : {"d/lidar/timestamps.txt", "d/times.txt", "d/timestamps.txt"}) {
+      SCOPED_TRACE(std::string(place) + ": " + text);
+      const TempDir folder;
+      folder.write("d/lidar/1.bin", bin_of(1));
+      folder.write("d/lidar/2.bin", bin_of(2));
+      folder.write(place, text);
+      EXPECT_EQ(stamps_of(folder / "d/lidar"), kExpected);
+      EXPECT_TRUE(open_scan_source(folder / "d/lidar")->info().warnings.empty());
+    }
+  }
+}
+
+TEST(FolderStampsTest, DatesWithoutLeadingZeros) {
+  const TempDir folder;
+  folder.write("1.bin", bin_of(1));
+  folder.write("2.bin", bin_of(2));
+  for (const char* text :
+       {"2011-09-26 09:02:59.500\n2011-09-26 09:03:05.25\n", "2011-9-26 9:02:59.500\n2011-9-26 9:3:5.25\n",
+        "2011-09-26 9:02:59.500\n2011-09-26 9:03:05.25\n"}) {
+    folder.write("timestamps.txt", text);
+    EXPECT_EQ(stamps_of(folder.path()),
+              (std::vector<std::int64_t>{1'317'027'779'500'000'000, 1'317'027'785'250'000'000}))
+        << text;
+  }
+  for (const char* line : {"2011-9-26 9:02:", "2011-9-26 9:02", "2011-9-26 9:02:x", "2011-9-26 9:02:99",
+                           "2011-9-26 9:02: 5", "2011-9-026 13:02:25", "11-9-26 9:02:59"}) {
+    folder.write("timestamps.txt", std::string(line) + "\n2011-9-26 9:03:05\n");
+    EXPECT_TRUE(has_warning(open_scan_source(folder.path())->info(),
+                            "timestamps.txt, line 1: '" + std::string(line) + "'; expected a date"))
+        << line;
+  }
+}
+
+TEST(FolderStampsTest, TimestampsThatDoNotFitAreNamed) {
+  const TempDir folder;
+  folder.write("d/lidar/1.bin", bin_of(1));
+  folder.write("d/timestamps.txt", "0.5\n0.6\n");
+  folder.write("d/lidar/timestamps.txt", "noon\n");
+  const auto info = open_scan_source(folder / "d/lidar")->info();
+  EXPECT_TRUE(info.stamps_assumed);
+  EXPECT_TRUE(has_warning(info, "d/timestamps.txt: 2 stamps for 1 sweep"));
+  EXPECT_TRUE(has_warning(info, "lidar/timestamps.txt, line 1: 'noon'"));
+  EXPECT_TRUE(has_warning(info, "no timestamps found; assuming 10 Hz"));
+  // A KITTI sequence has its times beside velodyne/; what lies above that is of other data.
+  folder.write("s/00/velodyne/1.bin", bin_of(1));
+  folder.write("s/timestamps.txt", "0.5\n");
+  EXPECT_EQ(stamps_of(folder / "s/00"), std::vector<std::int64_t>{0});
+  folder.write("s/00/timestamps.txt", "0.5\n");
+  EXPECT_EQ(stamps_of(folder / "s/00"), std::vector<std::int64_t>{500'000'000});
+}
+
+TEST(FolderStampsTest, WithoutStampsNumbersTellWhichSweepsAreMissing) {
+  const auto steps_of = [](const std::vector<std::string>& names) {
+    const TempDir folder;
+    for (const std::string& name : names) folder.write(name, bytes_of<float>({1, 2, 3, 4}));
+    SourceOptions options;
+    options.assumed_rate_hz = 20;
+    const auto source = open_scan_source(folder.path(), options);
+    std::vector<std::int64_t> steps;
+    std::int64_t before = source->next()->stamp_ns;
+    while (const auto sweep = source->next()) {
+      steps.push_back((sweep->stamp_ns - before) / 50'000'000);
+      before = sweep->stamp_ns;
+    }
+    EXPECT_TRUE(source->info().stamps_assumed);
+    return steps;
+  };
+  using Steps = std::vector<std::int64_t>;
+  EXPECT_EQ(steps_of({"7.bin", "8.bin", "11.bin", "12.bin"}), (Steps{1, 3, 1}));
+  EXPECT_EQ(steps_of({"scan_000.bin", "scan_005.bin", "scan_015.bin", "scan_020.bin"}), (Steps{1, 2, 1}));
+  EXPECT_EQ(steps_of({"0001_a.bin", "0002_a.bin", "0004_a.bin"}), (Steps{1, 2}));
+  // Numbers that may mean something else.
+  EXPECT_EQ(steps_of({"1.bin", "2.bin", "40.bin"}), (Steps{1, 1}));
+  EXPECT_EQ(steps_of({"a1.bin", "b2.bin", "b4.bin"}), (Steps{1, 1}));
+  EXPECT_EQ(steps_of({"a.bin", "b.bin"}), (Steps{1}));
+  EXPECT_EQ(steps_of({"1_1.bin", "1_2.bin", "2_1.bin"}), (Steps{1, 1}));
+  EXPECT_EQ(steps_of({"1234567890.bin", "1234567891.bin", "1234567893.bin"}), (Steps{1, 1}));
+  EXPECT_EQ(steps_of({"01.bin", "1.bin", "3.bin"}), (Steps{1, 1}));
+}
+
+TEST(StampListTest, MicrosecondsThatDoNotFitAreNone) {
+  EXPECT_EQ(detail::parse_long_stamp("1700000000123456"), 1'700'000'000'123'456'000);
+  EXPECT_FALSE(detail::parse_long_stamp("9999999999999999"));
+}
+
+}  // namespace
+}  // namespace rilo::test

@@ -17,57 +17,76 @@ constexpr int kPeriods = 8;
 
 void PathSearch::improve(const MotionState& predicted, Registration& found) const {
   const Deadline looks_end = search_.end().after(PoseSearch::kTimeShare);
-  const std::vector<MotionState> places = other_places(predicted, found);
-  if (places.empty()) {
+  const std::vector<Place> places = places_of(predicted, found);
+  if (std::none_of(places.begin(), places.end(), [](const Place& place) { return place.elsewhere; })) {
     return;
   }
   const SweepOverlap overlap = overlap_with_last(predicted, found);
   const PointGrid last = overlap.before(parts_.tracker.trusted().motion());
   const auto late = [&] { return looks_end.passed(); };
   const std::vector<double> overlaps = overlaps_of(
-      places.size(), [&](std::size_t i) { return overlap.at(places[i], last); }, late);
+      places.size(), [&](std::size_t i) { return overlap.at(places[i].state, last); }, late);
   found.cut = late();
   if (found.cut) {
     return;
   }
-  const MotionState& best = places[most_of(overlaps)];
   const std::vector<double> of_found = overlap.matches(found.icp.state, last);
-  if (!clearly_more(overlap.matches(best, last), of_found)) {
+  const auto more = [&](const MotionState& state) { return clearly_more(overlap.matches(state, last), of_found); };
+  const Place* best = best_of(places, overlaps, false);
+  const bool clear = best && more(best->state);
+  if (!clear && parts_.tracker.lost()) {
+    // What the sensor has turned meanwhile hides what it has in common until it is registered: a peak may be more.
+    best = best_of(places, overlaps, true);
+  }
+  if (!best || !(clear || parts_.tracker.lost())) {
     return;
   }
-  Registration other = search_.from(best);
+  Registration other = search_.from(best->state);
   if (!settled(other.icp)) {
     // It may have come a long way, since the sensor has turned or sped up meanwhile.
     other = search_.from(other.icp.state);
   }
   found.starts = other.starts = found.starts + 1;
-  if (settled(other.icp) && clearly_more(overlap.matches(other.icp.state, last), of_found)) {
+  if (settled(other.icp) && more(other.icp.state)) {
     found = std::move(other);
   } else {
-    found.ambiguous = true;
+    found.ambiguous = clear;
   }
 }
 
-/// Where else than it was found the sensor was or will be, so far apart that between two places a match is still 0.6,
-/// or, where it turns rather than moves, a period apart; and where the sweep before fitted, had the motion been
-/// possible.
-std::vector<MotionState> PathSearch::other_places(const MotionState& predicted, const Registration& found) const {
+/// Where the sensor was or will be, so far apart that between two places a match is still 0.6, or, where it turns
+/// rather than moves, a period apart; at last where the sweep before fitted, had the motion been possible.
+std::vector<PathSearch::Place> PathSearch::places_of(const MotionState& predicted, const Registration& found) const {
   const double speed_m_s = predicted.twist.tail<3>().norm();
   const double reach_s = std::min(kPeriods * parts_.period_s, SweepOverlap::kReachM / std::max(speed_m_s, 1e-9));
   const double step_s = std::min(parts_.period_s, 2.0 * SweepOverlap::kSigmaM / std::max(speed_m_s, 1e-9));
   const auto steps = static_cast<int>(std::lround(reach_s / step_s));
-  std::vector<MotionState> places;
+  const auto place = [&](const SE3& T) {
+    return Place{{T, predicted.twist}, elsewhere(T, found.icp.state.T_odom_lidar)};
+  };
+  std::vector<Place> places;
   for (int k = -steps; k <= steps; ++k) {
-    const SE3 T = predicted.T_odom_lidar * se3_exp(k * step_s * predicted.twist);
-    if (elsewhere(T, found.icp.state.T_odom_lidar)) {
-      places.push_back({T, predicted.twist});
-    }
+    places.push_back(place(predicted.T_odom_lidar * se3_exp(k * step_s * predicted.twist)));
   }
-  const std::optional<MotionState> claimed = parts_.tracker.predicted_from_claim();
-  if (claimed && elsewhere(claimed->T_odom_lidar, found.icp.state.T_odom_lidar)) {
-    places.push_back(*claimed);
+  if (const std::optional<MotionState> claimed = parts_.tracker.predicted_from_claim()) {
+    places.push_back(place(claimed->T_odom_lidar));
   }
   return places;
+}
+
+/// The place elsewhere of the most overlap; nullptr where there is none. A peak has more than both of its neighbours.
+const PathSearch::Place* PathSearch::best_of(const std::vector<Place>& places, const std::vector<double>& overlaps,
+                                             bool peaks) {
+  const auto is_peak = [&](std::size_t i) {
+    return (i == 0 || overlaps[i] > overlaps[i - 1]) && (i + 1 == places.size() || overlaps[i] > overlaps[i + 1]);
+  };
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].elsewhere && (!peaks || is_peak(i)) && (!best || overlaps[i] > overlaps[*best])) {
+      best = i;
+    }
+  }
+  return best ? &places[*best] : nullptr;
 }
 
 /// The sweep as found beside the last one that was accepted.

@@ -15,12 +15,18 @@ class PathSearch {
   PathSearch(const RegistrationParts& parts, const PoseSearch& search) : parts_(parts), search_(search) {}
 
   /// Replaces `found` where the sweep has clearly more in common at another of these places and settles there. Where it
-  /// does not settle, `found` is ambiguous.
+  /// does not settle, `found` is ambiguous. After a loss, it may show that it has more only once it has settled.
   void improve(const MotionState& predicted, Registration& found) const;
 
  private:
+  struct Place {
+    MotionState state;
+    bool elsewhere = false;  ///< than where the sweep was found
+  };
+
   SweepOverlap overlap_with_last(const MotionState& predicted, const Registration& found) const;
-  std::vector<MotionState> other_places(const MotionState& predicted, const Registration& found) const;
+  std::vector<Place> places_of(const MotionState& predicted, const Registration& found) const;
+  static const Place* best_of(const std::vector<Place>& places, const std::vector<double>& overlaps, bool peaks);
 
   const RegistrationParts& parts_;
   const PoseSearch& search_;

@@ -156,6 +156,30 @@ TEST_F(PoseSearches, ASweepIsAlsoLookedForWhereTheOneBeforeFitted) {
   }
 }
 
+// What the sensor has turned meanwhile hides how much the sweeps have in common, until one is registered.
+TEST_F(PoseSearches, AfterALossASweepOfAnotherTimeIsFoundAlthoughTheSensorHasTurned) {
+  see_road(4.0, kIrregular);
+  const Eigen::Matrix3f turned = so3_exp(Eigen::Vector3d(0.0, 0.0, -0.3)).cast<float>();
+  for (auto* points : {&prepared_.source.points, &prepared_.map_cloud.points}) {
+    for (Eigen::Vector3f& point : *points) {
+      point = turned * point;
+    }
+  }
+  for (const bool lost : {false, true}) {
+    map_road(kIrregular);
+    if (lost) {
+      tracker_.lose(predicted(), std::nullopt);
+    }
+    const RegistrationParts all = parts();
+    Registration found = at_the_prediction(all);
+    found.icp.state = predicted();
+    ASSERT_GT(std::abs(x_of(found) - 4.0), 1.0);
+    PathSearch(all, PoseSearch(all)).improve(predicted(), found);
+    EXPECT_EQ(std::abs(x_of(found) - 4.0) < 0.05, lost);
+    EXPECT_FALSE(found.ambiguous);
+  }
+}
+
 TEST_F(PoseSearches, WhereItHasMoreInCommonButDoesNotSettleItMayLieAtEitherPlace) {
   map_road(kIrregular);
   see_road(4.0, kIrregular);

@@ -4,6 +4,8 @@ import shutil
 
 import numpy as np
 
+LONG = 150  # sweeps of `long_gaps`, its gaps included
+
 
 class Drive:
     """What the plan says of a drive; a sweep is known by its number in the folder."""
@@ -19,8 +21,10 @@ class Drive:
         self.stamps = np.loadtxt(times) if os.path.exists(times) else 0.1 * np.arange(len(self.files))
 
     def plain(self):
-        last = min(self.first + self.count, len(self.files))
-        return [Entry(self, i, self.stamps[i]) for i in range(self.first, last)]
+        return self.sweeps(self.first, self.first + self.count)
+
+    def sweeps(self, first, last):
+        return [Entry(self, i, self.stamps[i]) for i in range(first, min(last, len(self.files)))]
 
 
 class Entry:
@@ -134,12 +138,27 @@ def stretches(drive, sweeps, middle):
 
 def long_gaps(drive, sweeps, middle):
     """From the first sweep that is used on, 150: without 1, 1.5 and 2 seconds of them."""
-    numbers = range(drive.first, drive.first + 150)
-    if not drive.truth_file or numbers[-1] >= len(drive.files):
+    kept = long_range(drive, sweeps, middle)
+    if not drive.truth_file or len(kept) < LONG:
         return None
-    missing = {k + drive.first for k in (*range(40, 50), *range(70, 85), *range(110, 130))}
-    return [Entry(drive, i, drive.stamps[i]) for i in numbers if i not in missing]
+    return kept[:40] + kept[50:70] + kept[85:110] + kept[130:]
 
+
+# ---- sweeps without a fault: those that a fault is made of ----
+
+def as_used(drive, sweeps, middle):
+    return sweeps
+
+
+def long_range(drive, sweeps, middle):
+    return drive.sweeps(drive.first, drive.first + LONG)
+
+
+def whole_drive(drive, sweeps, middle):
+    return drive.sweeps(0, len(drive.files))
+
+
+# ---- edits of points ----
 
 def cover(points, times):
     """A cloth over the sensor: everything within 2 m, nothing of the place is left."""
@@ -158,7 +177,6 @@ def nothing_but_nan(points, times):
 
 
 FAULTS = {
-    "none": lambda drive, sweeps, m: sweeps,
     "second_foreign": foreign_at(1),
     "foreign": foreign_at(None),
     "early_gap": early_gap,
@@ -178,6 +196,11 @@ FAULTS = {
     "stretches": stretches,
     "long_gaps": long_gaps,
 }
+
+WITHOUT_FAULT = {"none": as_used, "none_long": long_range, "none_whole": whole_drive}
+# What a fault is made of; those that are not named, of the sweeps as used.
+MADE_OF = {"slow": "none_whole", "stretches": "none_whole", "long_gaps": "none_long"}
+
 
 
 def write_drive(drive, sweeps, folder):

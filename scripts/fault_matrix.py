@@ -26,7 +26,8 @@ nothing of its poses: only whether it goes on tracking counts.
 What is counted. Odometry is relative: poses are compared with the truth from an anchor on, the first sweep of the map.
 A sweep with status `initialising`, or the last of RESTART lost ones in a row, begins a new map and is the next anchor.
 Status ok, degenerate and recovered vouch for a pose. Such a pose is wrong when it is off by more than
-0.25 m or 2° beyond what the run without a fault is off at the same sweep, both from the same anchor. A sweep of nowhere
+0.25 m or 2° beyond what a run without a fault is off at the same sweep, both from the same anchor: one of the same
+sweeps, for faults of a longer piece of the drive one of that piece. A sweep of nowhere
 (foreign, covered) that is vouched for is wrong unless its pose is that of the sweep that it replaces. `tracks`: the
 last ten poses are right from the first of them on, and vouched for. Prints a table; --csv writes it.
 """
@@ -41,7 +42,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
-from fault_cases import FAULTS, Drive, write_drive
+from fault_cases import FAULTS, MADE_OF, WITHOUT_FAULT, Drive, write_drive
 
 LIMIT_M, LIMIT_DEG = 0.25, 2.0
 RESTART = 10
@@ -142,7 +143,7 @@ def work(task):
     folder = os.path.join(options.work, "data", drive.name, fault)
     out = os.path.join(options.work, "out", drive.name, fault)
     plain = drive.plain()
-    sweeps = FAULTS[fault](drive, plain, len(plain) // 2)
+    sweeps = {**WITHOUT_FAULT, **FAULTS}[fault](drive, plain, len(plain) // 2)
     if sweeps is None:
         return None
     write_drive(drive, sweeps, folder)
@@ -174,17 +175,21 @@ def main():
     for drive in drives:
         if drive.stride and not drive.truth_file:
             sys.exit(f"{options.plan}: {drive.name} has a stride and no truth; give `truth`, poses of all its sweeps")
-    faults = [f for f in FAULTS if f != "none" and (not options.faults or f in options.faults.split(","))]
+    faults = [f for f in FAULTS if not options.faults or f in options.faults.split(",")]
     rows = []
     with ProcessPoolExecutor(options.jobs) as pool:
         truths = {d.name: dict(enumerate(read_poses(d.truth_file))) if d.truth_file else None for d in drives}
-        sound = dict(zip([d.name for d in drives],
-                         pool.map(work, [(d, "none", options, truths[d.name], {}) for d in drives])))
-        rows += [row for _, row in sound.values()]
+        needed = {"none"} | {MADE_OF[f] for f in faults if f in MADE_OF}
+        pieces = [(d, piece) for d in drives for piece in sorted(needed if d.truth_file else {"none"})]
+        done = list(pool.map(work, [(d, piece, options, truths[d.name], {}) for d, piece in pieces]))
+        sound = {(d.name, piece): poses for (d, piece), (poses, _) in zip(pieces, done)}
+        rows += [row for _, row in done]
         tasks = []
         for drive in drives:
-            faultless = sound[drive.name][0]
-            tasks += [(drive, f, options, truths[drive.name] or faultless, faultless) for f in faults]
+            truth = truths[drive.name] or sound[drive.name, "none"]
+            for fault in faults:
+                faultless = sound.get((drive.name, MADE_OF.get(fault, "none")), {})
+                tasks.append((drive, fault, options, truth, faultless))
         for done in pool.map(work, tasks):
             if done:
                 rows.append(done[1])
@@ -203,9 +208,9 @@ def show(row):
 
 
 def summarise(rows):
-    faulty = [row for row in rows if row["fault"] != "none"]
+    faulty = [row for row in rows if row["fault"] not in WITHOUT_FAULT]
     for row in rows:
-        if row["fault"] == "none":
+        if row["fault"] in WITHOUT_FAULT:
             show(row)
     print(f"{len(faulty)} runs: {sum(r['wrong'] for r in faulty)} poses wrong and vouched for, "
           f"in {sum(r['wrong'] > 0 for r in faulty)} runs; {sum(r['tracks'] for r in faulty)} track to the end")

@@ -40,6 +40,14 @@ void check_ascii_size(const PcdBody& body, std::size_t columns) {
             "at least " + counted(2 * columns, "byte") + " a point");
 }
 
+// PCL once wrote numbers of one byte as that byte itself: Livox tags and lines are then control characters.
+bool store(PackedRows& rows, const Field& field, std::size_t index, std::string_view word) {
+  if (rows.store_text(index, word)) return true;
+  if (field.type != ScalarType::kUint8 || word.size() != 1) return false;
+  rows.store_bytes(index, word.data());
+  return true;
+}
+
 void read_ascii_row(const PcdBody& body, std::string_view line, std::size_t number, PackedRows& rows) {
   WordScanner words(line);
   const std::vector<Field>& fields = body.header.fields;
@@ -48,7 +56,7 @@ void read_ascii_row(const PcdBody& body, std::string_view line, std::size_t numb
     for (std::size_t k = 0; k < fields[i].count; ++k, ++column) {
       const auto word = words.next();
       if (!word) body.fail(at_line(number), counted(column, "value"), "a value for every field");
-      if (k == 0 && rows.wanted(i) && !rows.store_text(i, *word)) {
+      if (k == 0 && rows.wanted(i) && !store(rows, fields[i], i, *word)) {
         body.fail(at_line(number, words.column()), in_quotes(*word),
                   "a number (" + std::string(to_string(fields[i].type)) + ") for field " + fields[i].name);
       }

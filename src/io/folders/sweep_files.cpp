@@ -87,6 +87,17 @@ std::optional<std::string> subfolder_with_sweeps(const fs::path& folder, const s
   return std::nullopt;
 }
 
+std::string what_to_give(const fs::path& folder) {
+  if (const std::vector<fs::path> captures = files_with(folder, {".pcap", ".pcapng"}); !captures.empty()) {
+    return "Give the recording of packets itself: " + captures[0].string();
+  }
+  if (const std::vector<fs::path> arrays = files_with(folder, {".npy"}); !arrays.empty()) {
+    return "Make a .bin of each array of points (N×3, N×4): numpy.load(\"" + arrays[0].filename().string() +
+           "\").astype(\"<f4\").tofile(\"" + arrays[0].stem().string() + ".bin\"), or register them from Python";
+  }
+  return "Give the folder that holds the sweeps themselves";
+}
+
 [[noreturn]] void reject_without_sweeps(const fs::path& folder, FolderContent content, bool look_below) {
   std::sort(content.folders.begin(), content.folders.end(), natural_less);
   std::string found = "no sweeps here (.bin, .pcd, .ply)";
@@ -101,10 +112,7 @@ std::optional<std::string> subfolder_with_sweeps(const fs::path& folder, const s
     found += (i == 0 ? " and the folders " : ", ") + content.folders[i];
   }
   if (content.folders.size() > kMostNames) found += ", …";
-  const std::vector<fs::path> captures = files_with(folder, {".pcap", ".pcapng"});
-  throw IoError({folder, "", found, "sweeps, or a KITTI sequence folder with velodyne/ in it",
-                 captures.empty() ? "Give the folder that holds the sweeps themselves"
-                                  : "Give the recording of packets itself: " + captures[0].string()});
+  throw IoError({folder, "", found, "sweeps, or a KITTI sequence folder with velodyne/ in it", what_to_give(folder)});
 }
 
 }  // namespace

@@ -74,6 +74,21 @@ TEST(PcdTest, AsciiWithDecimalsInWholeNumbers) {
   }
 }
 
+// As PCL once wrote them, Livox tags and lines for instance.
+TEST(PcdTest, AsciiWithBytesAsThemselves) {
+  const TempDir folder;
+  const auto header = [](const char* size) {
+    return std::string("FIELDS x y z tag line\nSIZE 4 4 4 1 ") + size +
+           "\nTYPE F F F U U\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n";
+  };
+  const std::string rows("1 2 3 \x10 \x03\n4 5 6 \x10 \0\n", 20);
+  const RawCloud cloud = read_pcd(folder.write("a.pcd", header("1") + rows));
+  EXPECT_EQ(cloud.points[1], Eigen::Vector3f(4, 5, 6));
+  EXPECT_EQ(cloud.rings, (std::vector<std::uint16_t>{3, 0}));
+  const auto wider = folder.write("b.pcd", header("2") + rows);
+  expect_io_error([&] { read_pcd(wider); }, {"line 8, column 9", "uint16", "field line"});
+}
+
 TEST(PcdTest, TimeFieldAsTold) {
   const TempDir folder;
   const auto file = folder.write("a.pcd",

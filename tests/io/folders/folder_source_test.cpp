@@ -120,6 +120,9 @@ TEST(FolderSourceTest, FoldersThatAreNoData) {
   folder.write("captures/b.pcap", "");
   folder.write("captures/notes.txt", "");
   expect_io_error([&] { open_scan_source(folder / "captures"); }, {"2 other files", "itself: ", "captures/b.pcap"});
+  folder.write("arrays/000000.npy", "");
+  expect_io_error([&] { open_scan_source(folder / "arrays"); },
+                  {"1 other file", "numpy.load(\"000000.npy\")", "Python"});
   std::filesystem::create_directories(folder / "root/sequences/00");
   expect_io_error([&] { open_scan_source(folder / "root/sequences"); }, {"the folders 00", "the sweeps themselves"});
   folder.write("drive/lidar/data/0.pcd", "");

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cloud/deskew.hpp"
+#include "odometry/optimum.hpp"
 #include "odometry/pose_noise.hpp"
 #include "odometry/running_mean.hpp"
 #include "registration/map_score.hpp"
@@ -29,7 +30,6 @@ constexpr std::size_t kSearchStarts = 4;  // the cost of each is one registratio
 // A cloud compensated for a slightly wrong velocity serves as a target: at either end of a sweep of 0.1 s it is off by
 // less than good poses are.
 constexpr double kHalfSweepS = 0.05;
-constexpr double kSuspicious = 0.85;  // of the usual quality
 }  // namespace
 
 InitialPose select_initial_pose(const ScoredPose& prediction, const ScoredPose& coarse,
@@ -157,7 +157,7 @@ bool InitialPoseStage::is_consistent(double score) const {
                             : own_score_ > 0.0 && score >= kOwnShare * own_score_;
 }
 
-bool InitialPoseStage::suspicious(double quality) const { return quality < kSuspicious * usual_quality_; }
+bool InitialPoseStage::suspicious(double quality) const { return rilo::suspicious(quality, usual_quality_); }
 
 std::vector<SE3> InitialPoseStage::restarts(const Situation& situation) const {
   PoseGrid grid{config_.search_shift_m, kSearchStepM, config_.search_yaw_rad, kSearchStepRad};

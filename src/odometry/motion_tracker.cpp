@@ -133,31 +133,23 @@ Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdic
     turn_noise_.learn(expected, velocity_covariance_, since_trusted(), icp);
     stamp_trust_.learn(deviation_s(), prior, icp);
   }
+  const bool jump = verdict == MotionVerdict::kJump;
   state_ = icp.state;
   state_.T_odom_lidar = renormalised(state_.T_odom_lidar);
   trusted_state_ = state_;
-  if (verdict == MotionVerdict::kJump) {
+  if (jump) {
     trusted_state_.twist = velocity_before;
   }
-  if (lost_ && past_.size() >= 2) {
-    // As if the sensor had come here at the velocity from before.
-    const double step_s = static_cast<double>(past_.back().stamp_ns - past_[past_.size() - 2].stamp_ns) * 1e-9;
-    const SE3 step = past_[past_.size() - 2].T_odom_lidar.inverse() * past_.back().T_odom_lidar;
-    past_ = {{now_ns_ - std::int64_t(step_s * 1e9), state_.T_odom_lidar * step.inverse()}};
-  }
-  past_.push_back({now_ns_, state_.T_odom_lidar});
+  remember(!lost_ && !jump);
   deviation_ns_ = 0;
-  if (past_.size() > kRememberedPoses) {
-    past_.erase(past_.begin());
-  }
   if (lost_) {  // the velocity stays unknown, see lose()
-    if (verdict == MotionVerdict::kJump) {
+    if (jump && claim_) {
       step_ = claim_->T_odom_lidar.inverse() * state_.T_odom_lidar;
       step_s_ = seconds_since(claim_->at_ns);
     } else if (dt_s > kStaleSteps * step_s_) {
       step_.reset();
     }
-  } else {
+  } else if (!jump) {
     step_ = motion;
     step_s_ = dt_s;
     velocity_covariance_ = velocity_covariance_of(icp);
@@ -166,6 +158,20 @@ Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdic
   lost_ = false;
   degenerate_ = degenerate;
   return motion.translation();
+}
+
+/// The pose of the accepted sweep; `timed`: the sensor came there from the pose before in the time since.
+void MotionTracker::remember(bool timed) {
+  if (!timed && past_.size() >= 2) {
+    // As if it had come here at the velocity from before.
+    const double step_s = static_cast<double>(past_.back().stamp_ns - past_[past_.size() - 2].stamp_ns) * 1e-9;
+    const SE3 step = past_[past_.size() - 2].T_odom_lidar.inverse() * past_.back().T_odom_lidar;
+    past_ = {{now_ns_ - std::int64_t(step_s * 1e9), state_.T_odom_lidar * step.inverse()}};
+  }
+  past_.push_back({now_ns_, state_.T_odom_lidar});
+  if (past_.size() > kRememberedPoses) {
+    past_.erase(past_.begin());
+  }
 }
 
 void MotionTracker::lose(const MotionState& predicted, const std::optional<SE3>& claim) {

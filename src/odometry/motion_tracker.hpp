@@ -18,8 +18,8 @@ namespace rilo {
 /// Verdict on the motion to a pose.
 enum class MotionVerdict : std::uint8_t {
   kPossible,    ///< from the last trusted pose
-  kJump,        ///< not from there, but from the pose that the rejected sweep before had: two agree
-  kImpossible,  ///< from neither
+  kJump,        ///< not in that time, but the pose is right: two sweeps agree on it, or the sweep fits as usual
+  kImpossible,  ///< nor is there more that speaks for it
 };
 
 /// Follows the sensor on a time of its own. Only poses that were accepted enter; a velocity is never taken from a
@@ -83,6 +83,7 @@ class MotionTracker {
   double deviation_s() const { return static_cast<double>(deviation_ns_) * 1e-9; }
   /// Accelerations to expect now.
   MotionPriorConfig expected_prior() const;
+  void remember(bool timed);
   bool agrees_with_claim(const SE3& T_odom_lidar) const;
 
   MotionPredictionConfig prediction_config_;

@@ -15,6 +15,9 @@ inline double quality_of(const IcpResult& icp, double score, std::size_t points)
   return icp.residual_rms_m > 0.0 ? score * share / icp.residual_rms_m : 0.0;
 }
 
+/// Whether that is less than right sweeps have that fit as those before them did.
+inline bool suspicious(double quality, double usual_quality) { return quality < 0.85 * usual_quality; }
+
 /// Converged without points that had to be held.
 inline bool settled(const IcpResult& icp) { return icp.converged() && !icp.frozen; }
 

@@ -78,7 +78,7 @@ void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted,
   }
   contradicted_ = true;
   if (judge_.give_up(established(), periods_since_trusted())) {
-    begin_map(prepared, predicted, result);
+    begin_map(prepared, claim ? MotionState{*claim, predicted.twist} : predicted, result);
   }
 }
 

@@ -29,6 +29,11 @@ bool cut_off(const IcpResult& icp, double range_m) {
 
 Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& registration, MotionVerdict motion,
                             const JudgedAgainst& before) const {
+  const bool degenerate = is_degenerate(registration.icp, config_);
+  if (motion == MotionVerdict::kImpossible && before.usual_quality > 0.0 && !degenerate && settled(registration.icp) &&
+      !suspicious(registration.quality, before.usual_quality)) {
+    motion = MotionVerdict::kJump;  // the time is less certain than that: sweeps are missing, or come at uneven times
+  }
   Evidence evidence;
   evidence.score = registration.score;
   evidence.kept_share = prepared.kept_share();
@@ -36,7 +41,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.ambiguous = registration.ambiguous;
   const bool sees_less = registration.icp.degeneracy.relative_eigenvalues[0] < kSeesLess * usual_eigenvalue_;
   // After a loss a place that has changed must be taken as it is; so must one that shows a direction no longer.
-  const bool fits_worse = !before.was_lost && !is_degenerate(registration.icp, config_) &&
+  const bool fits_worse = !before.was_lost && !degenerate &&
                           registration.quality < (sees_less ? kFitsWorse : kFitsMuchWorse) * before.usual_quality;
   // A search looks at so many places that one of them fits by chance; that two sweeps agree on one is none.
   const bool found_by_chance =
@@ -44,7 +49,7 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   // After a gap the map may end where the sensor is: what counts is how closely the sweep fits, not how much of it,
   // as long as it shows all directions about as usual.
   const bool after_gap = before.after_gap && usual_residual_m_ > 0.0;
-  const bool map_may_end = after_gap && !sees_less && !is_degenerate(registration.icp, config_);
+  const bool map_may_end = after_gap && !sees_less && !degenerate;
   evidence.displaced = (!map_may_end && (fits_worse || found_by_chance)) || !registration.stands_out ||
                        (after_gap && !fits_closely(registration, before.usual_quality));
   evidence.map_sweeps = before.map_sweeps;

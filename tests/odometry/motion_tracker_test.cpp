@@ -171,6 +171,20 @@ TEST(MotionTracker, AJumpLeavesTheVelocityFromBefore) {
   EXPECT_NEAR(tracker.trusted().twist[3], 10.0, 1e-12);
 }
 
+// Six sweeps are missing without their stamps, and the first one after them fits as usual.
+TEST(MotionTracker, AJumpAtOnceLeavesTheMotionFromBeforeToo) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  IcpResult jump = at(9.0);
+  jump.state.twist[3] = 70.0;
+  EXPECT_NEAR(tracker.accept(jump, MotionVerdict::kJump, false).x(), 7.0, 1e-12);
+  EXPECT_NEAR(tracker.trusted().twist[3], 10.0, 1e-12);
+  tracker.advance(after(kStepNs));
+  EXPECT_NEAR(x_of(tracker.predicted(0.3)), 10.0, 1e-6);
+  EXPECT_EQ(tracker.weigh(at(10.0).state.T_odom_lidar), MotionVerdict::kPossible);
+  EXPECT_EQ(tracker.weigh(at(16.0).state.T_odom_lidar), MotionVerdict::kImpossible);
+}
+
 TEST(MotionTracker, TwoClaimsInARowMayMoveOtherwiseThanBefore) {
   MotionTracker tracker = driving();
   const auto claimed = [&](double x) {

@@ -159,6 +159,29 @@ TEST(SweepJudge, AMotionThatIsImpossibleIsAClaim) {
   EXPECT_EQ(after(MotionVerdict::kJump).status, OdometryStatus::kRecovered);
 }
 
+// Sweeps are missing, or come at uneven times: what a sweep says is more certain than when it was taken.
+TEST(SweepJudge, AMotionThatIsImpossibleIsAJumpWhereTheSweepFitsAsUsual) {
+  const SweepJudge judge(kJudgeConfig);
+  const auto verdict = [&](const Registration& registration, double usual_quality = 20.0) {
+    const Judgement judgement =
+        judge.judge(sweep_of(10.0), registration, MotionVerdict::kImpossible, {10, 0.8, usual_quality, false});
+    EXPECT_EQ(judgement.status == OdometryStatus::kOk, judgement.motion == MotionVerdict::kJump);
+    return judgement.motion;
+  };
+  Registration registration = fitting();
+  registration.quality = 17.1;
+  EXPECT_EQ(verdict(registration), MotionVerdict::kJump);
+  EXPECT_EQ(verdict(registration, 0.0), MotionVerdict::kImpossible) << "nothing is usual yet";
+  registration.icp.frozen = true;
+  EXPECT_EQ(verdict(registration), MotionVerdict::kImpossible) << "its matches had to be held";
+  registration.icp.frozen = false;
+  registration.icp.degeneracy.relative_eigenvalues[0] = 0.004;
+  EXPECT_EQ(verdict(registration), MotionVerdict::kImpossible) << "one direction is open";
+  registration.icp.degeneracy.relative_eigenvalues[0] = 1.0;
+  registration.quality = 16.9;
+  EXPECT_EQ(verdict(registration), MotionVerdict::kImpossible);
+}
+
 TEST(SweepJudge, AnEstablishedMapIsGivenUpAfterTenLossesInARow) {
   SweepJudge judge(kJudgeConfig);
   EXPECT_TRUE(judge.give_up(false, 1.0)) << "a young map may be the wrong one";

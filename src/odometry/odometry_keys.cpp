@@ -213,7 +213,9 @@ void add_health(KeyVisitor& keys, HealthConfig& c) {
 }
 
 void add_bounds(KeyVisitor& keys, MotionBoundsConfig& c) {
-  keys.section("bounds", "Limits of the sensor's motion; a pose beyond them is lost until a second one agrees, unless it fits as usual");
+  keys.section(
+      "bounds",
+      "Limits of the sensor's motion; a pose beyond them is lost until a second one agrees, unless it fits as usual");
   keys.real({"max_speed_m_s", "m/s", "speed"}, c.max_speed_m_s, 0.01, 100000);
   keys.real({"max_acceleration_m_s2", "m/s²", "acceleration: a braking car has 10, an arm that jerks the sensor 30"},
             c.max_acceleration_m_s2, 0.01, 100000);

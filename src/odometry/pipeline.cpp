@@ -189,6 +189,7 @@ Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& reg
       prepared, registration, motion,
       {map_.sweeps(), initial_pose_.expected_score(), initial_pose_.usual_quality(), tracker_.lost(), after_gap()});
   result.stats.map_score = registration.score;
+  result.stats.impossible_motion = judgement.fits_map && judgement.motion != MotionVerdict::kPossible;
   result.status = judgement.status;
   return judgement;
 }

@@ -140,6 +140,7 @@ void add_statistics(Columns& table) {
   table.stat("elevation_applied_rad", &S::elevation_applied_rad);
   table.stat("beam_elevation_rms_rad", &S::beam_elevation_rms_rad);
   table.stat("beam_azimuth_rms_rad", &S::beam_azimuth_rms_rad);
+  table.stat("impossible_motion", &S::impossible_motion);
   table.stat("points_cut", &S::points_cut);
   table.stat("coarse_cut", &S::coarse_cut);
   table.stat("over_budget", &S::over_budget);

@@ -15,6 +15,7 @@
 #include "io/sources/source_wrappers.hpp"
 #include "io/text.hpp"
 #include "rilo/io/point_times.hpp"
+#include "session/assumed_rate.hpp"
 #include "session/beam_cones.hpp"
 #include "session/compensation_trial.hpp"
 #include "session/map_beginnings.hpp"
@@ -203,7 +204,8 @@ class Session::Impl {
 
   // About the whole run.
   void give_last_warnings() {
-    for (const std::string& warning : {further_maps(result_.results, result_.indices), dropped_calibration()}) {
+    for (const std::string& warning : {further_maps(result_.results, result_.indices),
+                                       doubtful_rate(result_.source, result_.results), dropped_calibration()}) {
       if (warning.empty()) continue;
       result_.source.warnings.push_back(warning);
       for (SessionObserver* observer : observers_) observer->on_warning(warning);

@@ -104,6 +104,7 @@ TEST(PipelineLearning, WhatFitsAsUsualIsTakenWhereverItLies) {
     const double y_m = i < 8 ? 0.0 : 0.7;
     const SweepResult result =
         odometry.register_sweep(seen(make_box_room({9.3, 7.1, 3.3}, sampling_at(0.0, y_m, i)), i));
+    EXPECT_EQ(result.stats.impossible_motion, i == 8);
     if (i >= 8) {
       EXPECT_EQ(result.status, OdometryStatus::kOk);
       EXPECT_EQ(result.stats.prediction_score > 0.9, i == 9) << "two of six walls are elsewhere at first";

@@ -44,7 +44,7 @@ SweepResult some_result() {
   s.elevation_applied_rad = 0.002;
   s.beam_elevation_rms_rad = 0.003;
   s.beam_azimuth_rms_rad = 0.004;
-  s.points_cut = s.over_budget = true;
+  s.impossible_motion = s.points_cut = s.over_budget = true;
   s.times = {1.5, 2.5, 3.5, 4.5, 12.0};
   return r;
 }

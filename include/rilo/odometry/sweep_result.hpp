@@ -89,7 +89,8 @@ struct SweepStats {
   double elevation_applied_rad = 0;              ///< angle added to those of the next sweep
   double beam_elevation_rms_rad = 0;             ///< root mean square of the corrections of single beams, next sweep
   double beam_azimuth_rms_rad = 0;
-  bool points_cut = false;   ///< fewer points than configured, because of the time budget
+  bool impossible_motion = false;  ///< it fits the map where no sensor can have moved to in its time
+  bool points_cut = false;         ///< fewer points than configured, because of the time budget
   bool coarse_cut = false;   ///< the coarse stage or further starts skipped or aborted, because of the time budget
   bool over_budget = false;  ///< the sweep took longer than its budget all the same
   StageTimes times;

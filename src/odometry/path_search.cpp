@@ -34,12 +34,12 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   const auto more = [&](const MotionState& state) { return clearly_more(overlap.matches(state, last), of_found); };
   const Place* best = best_of(places, overlaps, false);
   const bool clear = best && more(best->state);
-  if (!clear && parts_.tracker.lost()) {
-    // What the sensor has turned meanwhile hides what it has in common until it is registered: a peak may be more.
-    best = best_of(places, overlaps, true);
-  }
-  if (!best || !(clear || parts_.tracker.lost())) {
-    return;
+  if (!clear) {
+    // What the sensor has turned meanwhile hides what the sweeps have in common until one is registered.
+    best = parts_.tracker.lost() ? best_of(places, overlaps, true) : nullptr;
+    if (!best) {
+      return;
+    }
   }
   Registration other = search_.from(best->state);
   if (!settled(other.icp)) {
@@ -49,8 +49,8 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   found.starts = other.starts = found.starts + 1;
   if (settled(other.icp) && more(other.icp.state)) {
     found = std::move(other);
-  } else {
-    found.ambiguous = clear;
+  } else if (clear) {
+    found.ambiguous = true;
   }
 }
 

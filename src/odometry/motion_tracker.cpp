@@ -143,7 +143,7 @@ Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdic
   remember(!lost_ && !jump);
   deviation_ns_ = 0;
   if (lost_) {  // the velocity stays unknown, see lose()
-    if (jump && claim_) {
+    if (jump && agrees_with_claim(state_.T_odom_lidar)) {
       step_ = claim_->T_odom_lidar.inverse() * state_.T_odom_lidar;
       step_s_ = seconds_since(claim_->at_ns);
     } else if (dt_s > kStaleSteps * step_s_) {

@@ -16,7 +16,10 @@ inline double quality_of(const IcpResult& icp, double score, std::size_t points)
 }
 
 /// Whether that is less than right sweeps have that fit as those before them did.
-inline bool suspicious(double quality, double usual_quality) { return quality < 0.85 * usual_quality; }
+inline bool suspicious(double quality, double usual_quality) {
+  constexpr double kUsualShare = 0.85;
+  return quality < kUsualShare * usual_quality;
+}
 
 /// Converged without points that had to be held.
 inline bool settled(const IcpResult& icp) { return icp.converged() && !icp.frozen; }

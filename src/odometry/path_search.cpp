@@ -13,80 +13,72 @@ namespace {
 // A sweep that fits badly may have been taken so many periods earlier or later than its stamp: the sensor moved on as
 // before, so that it lies on the path.
 constexpr int kPeriods = 8;
+
+/// More than both of its neighbours.
+bool is_peak(const std::vector<double>& overlaps, std::size_t i) {
+  return (i == 0 || overlaps[i] > overlaps[i - 1]) && (i + 1 == overlaps.size() || overlaps[i] > overlaps[i + 1]);
+}
 }  // namespace
 
 void PathSearch::improve(const MotionState& predicted, Registration& found) const {
   const Deadline looks_end = search_.end().after(PoseSearch::kTimeShare);
-  const std::vector<Place> places = places_of(predicted, found);
-  if (std::none_of(places.begin(), places.end(), [](const Place& place) { return place.elsewhere; })) {
+  const std::vector<MotionState> places = places_of(predicted);
+  const SE3 T_found = found.icp.state.T_odom_lidar;
+  const auto is_elsewhere = [&](const MotionState& place) { return elsewhere(place.T_odom_lidar, T_found); };
+  if (std::none_of(places.begin(), places.end(), is_elsewhere)) {
     return;
   }
   const SweepOverlap overlap = overlap_with_last(predicted, found);
   const PointGrid last = overlap.before(parts_.tracker.trusted().motion());
   const auto late = [&] { return looks_end.passed(); };
   const std::vector<double> overlaps = overlaps_of(
-      places.size(), [&](std::size_t i) { return overlap.at(places[i].state, last); }, late);
+      places.size(), [&](std::size_t i) { return overlap.at(places[i], last); }, late);
   found.cut = late();
   if (found.cut) {
     return;
   }
   const std::vector<double> of_found = overlap.matches(found.icp.state, last);
   const auto more = [&](const MotionState& state) { return clearly_more(overlap.matches(state, last), of_found); };
-  const Place* best = best_of(places, overlaps, false);
-  const bool clear = best && more(best->state);
+  std::optional<std::size_t> best = most_of(overlaps, [&](std::size_t i) { return is_elsewhere(places[i]); });
+  const bool clear = best && more(places[*best]);
   if (!clear) {
     // What the sensor has turned meanwhile hides what the sweeps have in common until one is registered.
-    best = parts_.tracker.lost() ? best_of(places, overlaps, true) : nullptr;
-    if (!best) {
-      return;
-    }
+    const auto tried = [&](std::size_t i) { return is_elsewhere(places[i]) && is_peak(overlaps, i); };
+    best = parts_.tracker.lost() ? most_of(overlaps, tried) : std::nullopt;
   }
-  Registration other = search_.from(best->state);
-  if (!settled(other.icp)) {
-    // It may have come a long way, since the sensor has turned or sped up meanwhile.
-    other = search_.from(other.icp.state);
+  if (!best) {
+    return;
   }
-  found.starts = other.starts = found.starts + 1;
-  if (settled(other.icp) && more(other.icp.state)) {
-    found = std::move(other);
+  Registration there = registered_from(places[*best]);
+  found.starts = there.starts = found.starts + 1;
+  if (settled(there.icp) && more(there.icp.state)) {
+    found = std::move(there);
   } else if (clear) {
     found.ambiguous = true;
   }
 }
 
+/// It may come a long way, since the sensor has turned or sped up meanwhile: once more from where it ends.
+Registration PathSearch::registered_from(const MotionState& place) const {
+  Registration there = search_.from(place);
+  return settled(there.icp) ? there : search_.from(there.icp.state);
+}
+
 /// Where the sensor was or will be, so far apart that between two places a match is still 0.6, or, where it turns
 /// rather than moves, a period apart; at last where the sweep before fitted, had the motion been possible.
-std::vector<PathSearch::Place> PathSearch::places_of(const MotionState& predicted, const Registration& found) const {
+std::vector<MotionState> PathSearch::places_of(const MotionState& predicted) const {
   const double speed_m_s = predicted.twist.tail<3>().norm();
   const double reach_s = std::min(kPeriods * parts_.period_s, SweepOverlap::kReachM / std::max(speed_m_s, 1e-9));
   const double step_s = std::min(parts_.period_s, 2.0 * SweepOverlap::kSigmaM / std::max(speed_m_s, 1e-9));
   const auto steps = static_cast<int>(std::lround(reach_s / step_s));
-  const auto place = [&](const SE3& T) {
-    return Place{{T, predicted.twist}, elsewhere(T, found.icp.state.T_odom_lidar)};
-  };
-  std::vector<Place> places;
+  std::vector<MotionState> places;
   for (int k = -steps; k <= steps; ++k) {
-    places.push_back(place(predicted.T_odom_lidar * se3_exp(k * step_s * predicted.twist)));
+    places.push_back({predicted.T_odom_lidar * se3_exp(k * step_s * predicted.twist), predicted.twist});
   }
   if (const std::optional<MotionState> claimed = parts_.tracker.predicted_from_claim()) {
-    places.push_back(place(claimed->T_odom_lidar));
+    places.push_back(*claimed);
   }
   return places;
-}
-
-/// The place elsewhere of the most overlap; nullptr where there is none. A peak has more than both of its neighbours.
-const PathSearch::Place* PathSearch::best_of(const std::vector<Place>& places, const std::vector<double>& overlaps,
-                                             bool peaks) {
-  const auto is_peak = [&](std::size_t i) {
-    return (i == 0 || overlaps[i] > overlaps[i - 1]) && (i + 1 == places.size() || overlaps[i] > overlaps[i + 1]);
-  };
-  std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i].elsewhere && (!peaks || is_peak(i)) && (!best || overlaps[i] > overlaps[*best])) {
-      best = i;
-    }
-  }
-  return best ? &places[*best] : nullptr;
 }
 
 /// The sweep as found beside the last one that was accepted.

@@ -19,14 +19,9 @@ class PathSearch {
   void improve(const MotionState& predicted, Registration& found) const;
 
  private:
-  struct Place {
-    MotionState state;
-    bool elsewhere = false;  ///< than where the sweep was found
-  };
-
   SweepOverlap overlap_with_last(const MotionState& predicted, const Registration& found) const;
-  std::vector<Place> places_of(const MotionState& predicted, const Registration& found) const;
-  static const Place* best_of(const std::vector<Place>& places, const std::vector<double>& overlaps, bool peaks);
+  Registration registered_from(const MotionState& place) const;
+  std::vector<MotionState> places_of(const MotionState& predicted) const;
 
   const RegistrationParts& parts_;
   const PoseSearch& search_;

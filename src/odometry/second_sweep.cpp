@@ -17,18 +17,6 @@ constexpr double kDraftShare = 1.0 / 3.0;  // of the points; with a quarter fewe
 constexpr double kMostSpeed = 37.5;        // m/s, 135 km/h: so far other places are looked at
 constexpr int kLooks = 3;                  // the first result may be turned, too
 constexpr Eigen::Index kDirections = 2;    // of translations, in which other places are looked at
-
-/// Index of the place with the most overlap that lies in another basin than `found`.
-std::optional<std::size_t> most_elsewhere(const std::vector<MotionState>& places, const std::vector<double>& overlaps,
-                                          const MotionState& found) {
-  std::optional<std::size_t> most;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (elsewhere(places[i].T_odom_lidar, found.T_odom_lidar) && (!most || overlaps[i] > overlaps[*most])) {
-      most = i;
-    }
-  }
-  return most;
-}
 }  // namespace
 
 SecondSweep::SecondSweep(const RegistrationParts& parts, const PoseSearch& search)
@@ -171,7 +159,8 @@ std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direc
   if (found.cut || places.empty()) {
     return std::nullopt;
   }
-  const std::optional<std::size_t> rival = most_elsewhere(places, overlaps, found.icp.state);
+  const std::optional<std::size_t> rival =
+      most_of(overlaps, [&](std::size_t i) { return elsewhere(places[i].T_odom_lidar, found.icp.state.T_odom_lidar); });
   const std::size_t most = most_of(overlaps);
   const bool more_there = overlaps[most] > here;
   // Where nothing shows the way, this is no evidence against a place.

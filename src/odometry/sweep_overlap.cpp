@@ -114,6 +114,17 @@ std::size_t most_of(const std::vector<double>& overlaps) {
   return static_cast<std::size_t>(std::max_element(overlaps.begin(), overlaps.end()) - overlaps.begin());
 }
 
+std::optional<std::size_t> most_of(const std::vector<double>& overlaps,
+                                   const std::function<bool(std::size_t)>& allowed) {
+  std::optional<std::size_t> most;
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    if (allowed(i) && (!most || overlaps[i] > overlaps[*most])) {
+      most = i;
+    }
+  }
+  return most;
+}
+
 bool clearly_more(std::span<const double> most, std::span<const double> others) {
   double sum = 0.0;
   double squares = 0.0;

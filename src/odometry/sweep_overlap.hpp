@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -61,6 +62,9 @@ std::vector<double> overlaps_of(std::size_t count, const std::function<double(st
 
 /// Index of the most overlap, of the first of equal ones. There must be one.
 std::size_t most_of(const std::vector<double>& overlaps);
+/// The same of those that are allowed; none may be.
+std::optional<std::size_t> most_of(const std::vector<double>& overlaps,
+                                   const std::function<bool(std::size_t)>& allowed);
 
 /// Whether the matches `most` exceed those of the same places under another motion by three standard deviations of
 /// their difference, were the places independent.

@@ -7,7 +7,7 @@
 namespace rilo {
 
 namespace {
-// Of the sweeps that the map explains. Recordings that drop one now and then stay below.
+// Recordings that drop a sweep now and then stay below both.
 constexpr std::ptrdiff_t kFewestSudden = 3;
 constexpr std::ptrdiff_t kSuddenOneOf = 50;
 }  // namespace

@@ -10,7 +10,7 @@
 namespace rilo {
 
 /// A sentence about data without stamps of which several sweeps lie where no sensor can have moved to at the rate that
-/// was assumed. Empty: the data has stamps, or it are few.
+/// was assumed. Empty: the data has stamps, or they are few.
 std::string doubtful_rate(const SourceInfo& info, const std::vector<SweepResult>& results);
 
 }  // namespace rilo

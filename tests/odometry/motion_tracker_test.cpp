@@ -185,6 +185,18 @@ TEST(MotionTracker, AJumpAtOnceLeavesTheMotionFromBeforeToo) {
   EXPECT_EQ(tracker.weigh(at(16.0).state.T_odom_lidar), MotionVerdict::kImpossible);
 }
 
+// The sweep after a claim fits as usual elsewhere: the claim was wrong, and the way from it is no motion.
+TEST(MotionTracker, AJumpThatContradictsTheClaimLeavesTheStepFromBefore) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  tracker.lose(tracker.predicted(0.3), at(50.0).state.T_odom_lidar);
+  tracker.advance(after(kStepNs));
+  ASSERT_EQ(tracker.weigh(at(20.0).state.T_odom_lidar), MotionVerdict::kImpossible);
+  tracker.accept(at(20.0), MotionVerdict::kJump, false);
+  tracker.advance(after(kStepNs));
+  EXPECT_EQ(tracker.weigh(at(21.0).state.T_odom_lidar), MotionVerdict::kPossible);
+}
+
 TEST(MotionTracker, TwoClaimsInARowMayMoveOtherwiseThanBefore) {
   MotionTracker tracker = driving();
   const auto claimed = [&](double x) {

@@ -14,11 +14,19 @@ constexpr std::size_t kRememberedPoses = 3;  // (III-B)
 // Of the parabola through the last three velocities, whose whole would take their noise for motion (experiment: change
 // of the acceleration).
 constexpr double kCurvature = 0.5;
-constexpr double kStaleSteps = 3.0;  // after a loss this long the motion before is no evidence
+constexpr double kStepBeforeS = 0.1;  // with a known velocity a map begins as if the sensor had come that long
+constexpr double kStaleSteps = 3.0;   // after a loss this long the motion before is no evidence
 
 Matrix6d velocity_covariance_of(const IcpResult& icp) {
   const Matrix12d covariance = icp.posterior_information.ldlt().solve(Matrix12d::Identity());
   return covariance.bottomRightCorner<6, 6>();
+}
+
+/// Accelerations of a sensor of which little is seen.
+MotionPriorConfig steady(MotionPriorConfig config) {
+  config.acceleration_m_s2 *= config.unseen_share;
+  config.angular_acceleration_rad_s2 *= config.unseen_share;
+  return config;
 }
 }  // namespace
 
@@ -61,13 +69,8 @@ Vector6d MotionTracker::implied_twist(const SE3& T_odom_lidar) const {
 }
 
 MotionPriorConfig MotionTracker::expected_prior() const {
-  MotionPriorConfig config = turn_noise_.expected();
-  if (degenerate_) {
-    // Where nothing is seen, each sweep makes the prior weaker, and at last the least noise or bias outweighs it.
-    config.acceleration_m_s2 *= config.unseen_share;
-    config.angular_acceleration_rad_s2 *= config.unseen_share;
-  }
-  return config;
+  // Where nothing is seen, each sweep makes the prior weaker, and at last the least noise or bias outweighs it.
+  return degenerate_ ? steady(turn_noise_.expected()) : turn_noise_.expected();
 }
 
 MotionPrior MotionTracker::prior(const std::optional<MotionState>& refuted) const {
@@ -112,15 +115,27 @@ bool MotionTracker::agrees_with_claim(const SE3& T_odom_lidar) const {
          (claim_->step && possible_motion(motion, dt_s, claim_->step, claim_->step_s, bounds_));
 }
 
-void MotionTracker::begin(const MotionState& state) {
-  state_ = trusted_state_ = state;
+MotionState MotionTracker::begin(const MotionState& guess) {
+  state_ = guess;
   velocity_covariance_ = unknown_velocity_covariance();
-  past_ = {{now_ns_, state.T_odom_lidar}};
-  deviation_ns_ = 0;
+  past_.clear();
   step_.reset();
+  const double until_known_s = known_ ? known_->at_s - static_cast<double>(now_ns_) * 1e-9 : 0.0;
+  begun_moving_ = until_known_s > 0.0;
+  if (begun_moving_) {
+    state_.twist = known_->twist;
+    velocity_covariance_ = until_known_s * acceleration_density(steady(prior_config_));
+    step_ = se3_exp(kStepBeforeS * known_->twist);
+    step_s_ = kStepBeforeS;
+    past_.push_back({now_ns_ - std::llround(kStepBeforeS * 1e9), state_.T_odom_lidar * step_->inverse()});
+  }
+  past_.push_back({now_ns_, state_.T_odom_lidar});
+  trusted_state_ = state_;
+  deviation_ns_ = 0;
   claim_.reset();
   lost_ = false;
   degenerate_ = false;
+  return state_;
 }
 
 Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdict, bool degenerate) {
@@ -155,6 +170,8 @@ Eigen::Vector3d MotionTracker::accept(const IcpResult& icp, MotionVerdict verdic
     velocity_covariance_ = velocity_covariance_of(icp);
   }
   claim_.reset();
+  known_.reset();
+  begun_moving_ = false;
   lost_ = false;
   degenerate_ = degenerate;
   return motion.translation();
@@ -190,6 +207,9 @@ void MotionTracker::lose(const MotionState& predicted, const std::optional<SE3>&
   claim_ = next;
 }
 
-void MotionTracker::reset() { *this = MotionTracker(prediction_config_, prior_config_, bounds_); }
+void MotionTracker::reset(const std::optional<KnownVelocity>& known) {
+  *this = MotionTracker(prediction_config_, prior_config_, bounds_);
+  known_ = known;
+}
 
 }  // namespace rilo

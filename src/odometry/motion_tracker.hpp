@@ -11,6 +11,7 @@
 #include "odometry/turn_noise.hpp"
 #include "registration/adaptive_icp.hpp"
 #include "rilo/geometry/trajectory.hpp"
+#include "rilo/odometry/known_velocity.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 
 namespace rilo {
@@ -60,14 +61,18 @@ class MotionTracker {
 
   MotionVerdict weigh(const SE3& T_odom_lidar) const;
 
-  /// A map begins at `state`: its velocity is a guess.
-  void begin(const MotionState& state);
+  /// A map begins at `guess`, with the velocity there unless that is known better. Returns the state of its first
+  /// sweep.
+  MotionState begin(const MotionState& guess);
+  /// Whether the map began with a known velocity, and no sweep was accepted since.
+  bool begun_moving() const { return begun_moving_; }
   /// Takes the registered state of a sweep. Returns the displacement since the last trusted pose (sensor frame, m).
   Eigen::Vector3d accept(const IcpResult& icp, MotionVerdict verdict, bool degenerate);
   /// Continues at the prediction; `claim`: pose at which the sweep fitted the map, had the motion been possible.
   void lose(const MotionState& predicted, const std::optional<SE3>& claim);
 
-  void reset();
+  /// `known`: for maps that begin before the time of that velocity.
+  void reset(const std::optional<KnownVelocity>& known = std::nullopt);
 
  private:
   struct Claim {
@@ -100,6 +105,8 @@ class MotionTracker {
   std::optional<SE3> step_;                              // the last motion whose time is not in doubt, ...
   double step_s_ = 0;                                    // ... and how long it took
   std::optional<Claim> claim_;
+  std::optional<KnownVelocity> known_;
+  bool begun_moving_ = false;
   bool lost_ = false;
   bool degenerate_ = false;
 };

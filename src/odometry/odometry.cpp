@@ -78,6 +78,6 @@ void Odometry::start_with(const SensorAngles& known) { impl_->start_with(known);
 
 SensorAngles Odometry::sensor_angles() const { return impl_->sensor_angles(); }
 
-double Odometry::start_over() { return impl_->start_over(); }
+double Odometry::start_over(const std::optional<KnownVelocity>& velocity) { return impl_->start_over(velocity); }
 
 }  // namespace rilo

@@ -78,8 +78,11 @@ void Pipeline::register_to_map(const PreparedSweep& prepared, SweepResult& resul
   } else if (judgement.fits_map) {
     lose(prepared, predicted.steady(), registration.icp.state.T_odom_lidar, result);
   } else {
-    // What a second sweep found is not certain enough to vouch for; at rest, where it is predicted, it is less likely.
-    const bool found = map_.sweeps() == 1 && registration.icp.converged();
+    // What a second sweep found is not certain enough to vouch for; at rest, where it is predicted, it is less likely,
+    // unless little of it fits: part of a first sweep draws it anywhere.
+    const bool found = map_.sweeps() == 1 && registration.icp.converged() &&
+                       judgement.motion != MotionVerdict::kImpossible &&
+                       registration.score >= config_.health.lost_share * initial_pose_.expected_score();
     lose(prepared, found ? registration.icp.state : predicted.steady(), std::nullopt, result);
   }
 }
@@ -126,9 +129,10 @@ InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const M
   const std::function<Vector6d(const SE3&)> twist_at = [&](const SE3& T) { return tracker_.implied_twist(T); };
   const double left_ms = kCoarseShare * (budget_.target_ms() - clock_.total_ms());
   const double coarse_share = std::max(kLeastCoarse, budget_.share_in_time(budget_.ms(Work::kCoarseStart), left_ms));
-  InitialPose init = initial_pose_.choose({prepared.source, predicted, tracker_.trusted().T_odom_lidar, twist_at,
-                                           map_.map(), map_.first_can_be_compensated(), in_doubt(), reach(),
-                                           deadline(0.0).after(kCoarseShare), coarse_share});
+  InitialPose init =
+      initial_pose_.choose({prepared.source, predicted, tracker_.trusted().T_odom_lidar, twist_at, map_.map(),
+                            map_.first_can_be_compensated(), in_doubt() && !tracker_.begun_moving(), reach(),
+                            deadline(0.0).after(kCoarseShare), coarse_share});
   record(init, result.stats);
   result.stats.times.initial_pose_ms = clock_.lap_ms();
   if (!init.coarse_cut) {
@@ -213,14 +217,14 @@ void Pipeline::reset(const std::optional<SensorAngles>& known) {
   if (known) {
     calibration_.begin_with(*known);
   }
-  start_over();
+  start_over(std::nullopt);
 }
 
-double Pipeline::start_over() {
+double Pipeline::start_over(const std::optional<KnownVelocity>& velocity) {
   budget_.reset();
   preprocessor_.reset();
   sweep_clock_.reset();
-  tracker_.reset();
+  tracker_.reset(velocity);
   initial_pose_.reset();
   judge_.reset();
   threshold_.reset();

@@ -35,7 +35,7 @@ class Pipeline {
   /// `known`: in place of the configured angles.
   void reset(const std::optional<SensorAngles>& known);
   SensorAngles sensor_angles() const { return calibration_.angles(); }
-  double start_over();
+  double start_over(const std::optional<KnownVelocity>& velocity);
 
   const Trajectory& trajectory() const { return trajectory_; }
   const SweepMap& map() const { return map_; }
@@ -56,7 +56,7 @@ class Pipeline {
                          bool vague);
   void lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,
             SweepResult& result);
-  void begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result);
+  void begin_map(const PreparedSweep& prepared, const MotionState& guess, SweepResult& result);
   void thin(const PreparedSweep& prepared, double share, SweepStats& stats);
   void learn_rest(const Registration& registration, const SweepResult& result);
   void insert(const TimedCloud& cloud, SweepResult& result, const std::function<void(const TimedCloud&)>& into_map);

@@ -82,14 +82,14 @@ void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted,
   }
 }
 
-void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& state, SweepResult& result) {
+void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& guess, SweepResult& result) {
   result.status = OdometryStatus::kInitialising;
   contradicted_ = false;
+  const MotionState state = tracker_.begin(guess);
   judge_.begin(prepared);
   insert(prepared.map_cloud, result, [&](const TimedCloud& cloud) {
     map_.begin(cloud, state, prepared.scene_range_m, calibration_.pose_by_elevation());
   });
-  tracker_.begin(state);
   threshold_.reset();
   initial_pose_.begin(prepared.source, state, map_.map());
 }

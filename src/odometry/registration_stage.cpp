@@ -48,6 +48,10 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
     initial = {init.T_odom_lidar, parts.tracker.implied_twist(init.T_odom_lidar)};
     refuted = initial;
   }
+  if (parts.tracker.begun_moving()) {
+    return search.to_map(predicted, parts.tracker.prior(std::nullopt), parts.sigma_th_m, parts.config.icp,
+                         search.end());
+  }
   if (parts.map.sweeps() == 1) {
     return SecondSweep(parts, search).registered(initial, parts.tracker.prior(refuted));
   }

@@ -67,7 +67,7 @@ std::string angles(const RunMetrics& m) {
                         m.beam_azimuth_rms_deg);
   }
   if (m.started_over_after_sweeps) {
-    text += fmt::format("passes          2: restarted after {} with these angles\n",
+    text += fmt::format("passes          2: restarted after {} with what they say\n",
                         counted(*m.started_over_after_sweeps, "sweep"));
   }
   return text;

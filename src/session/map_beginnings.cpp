@@ -34,4 +34,13 @@ std::string further_maps(const std::vector<SweepResult>& results, const std::vec
   return where + ": the poses before and after are connected by a guess" + why(results, begun.size() + 1);
 }
 
+std::optional<KnownVelocity> velocity_after_late_beginning(const std::vector<SweepResult>& results) {
+  const auto first = std::find_if(results.begin(), results.end(),
+                                  [](const SweepResult& r) { return r.status == OdometryStatus::kOk; });
+  const auto begun = std::count_if(results.begin(), first,
+                                   [](const SweepResult& r) { return r.status == OdometryStatus::kInitialising; });
+  if (first == results.end() || begun < 2) return std::nullopt;
+  return KnownVelocity{first->twist, static_cast<double>(first->stamp_ns - results.front().stamp_ns) * 1e-9};
+}
+
 }  // namespace rilo

@@ -115,7 +115,7 @@ class Session::Impl {
     source_->skip(options_.start);
     if (!options_.one_pass) {
       run_until(std::min(count, kCalibrationSweeps));
-      if (!result_.interrupted && knows_sensor()) start_over();
+      if (!result_.interrupted) start_over_with_what_is_known();
     }
     run_until(count);
     if (result_.results.empty() && !result_.interrupted) throw RunError(RunErrorKind::kBadData, nothing_to_run());
@@ -179,14 +179,17 @@ class Session::Impl {
     result_.learnt_from = result_.results.size();
   }
 
-  void start_over() {
+  void start_over_with_what_is_known() {
+    const std::optional<KnownVelocity> velocity = velocity_after_late_beginning(result_.results);
+    if (!velocity && !knows_sensor()) return;
     // Before anything is given up: the data may be gone meanwhile.
     auto source = open_();
     source->skip(options_.start);
     source_ = std::move(source);
     keep_learnt();
     const double beams_rad = result_.results.back().stats.beam_elevation_rms_rad;
-    result_.restart = {result_.results.size(), kDegPerRad * odometry_.start_over(), kDegPerRad * beams_rad};
+    result_.restart = {result_.results.size(), kDegPerRad * odometry_.start_over(velocity), kDegPerRad * beams_rad,
+                       velocity.has_value()};
     result_.results.clear();
     result_.indices.clear();
     for (SessionObserver* observer : observers_) observer->on_restart(*result_.restart);

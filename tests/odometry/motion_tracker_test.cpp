@@ -295,6 +295,34 @@ TEST(MotionTracker, ANewMapBeginsWithoutWhatWas) {
   EXPECT_TRUE(tracker.prior(std::nullopt).information.isApprox(fresh.prior(std::nullopt).information, 1e-12));
 }
 
+TEST(MotionTracker, AMapBeginsWithAKnownVelocityUntilASweepIsAcceptedOrItsTimeHasPassed) {
+  MotionTracker tracker({}, {}, {});
+  KnownVelocity known{Vector6d::Zero(), 0.25};
+  known.twist[3] = 20.0;
+  tracker.reset(known);
+  EXPECT_EQ(tracker.begin({}).twist[3], 20.0);
+  EXPECT_TRUE(tracker.begun_moving());
+  tracker.advance(after(kStepNs));
+  EXPECT_NEAR(tracker.predicted(0.3).T_odom_lidar.translation().x(), 2.0, 1e-9);
+  EXPECT_EQ(tracker.weigh(at(2.0).state.T_odom_lidar), MotionVerdict::kPossible);
+  EXPECT_EQ(tracker.weigh(at(0.0).state.T_odom_lidar), MotionVerdict::kImpossible) << "200 m/s²";
+  // A random walk for 0.25 s, with a fifth of the configured 10 m/s², and as configured for the step.
+  EXPECT_NEAR(covariance_of(tracker.prior(std::nullopt))(9, 9), 0.25 * 0.4 + 0.1 * 10.0, 1e-9);
+
+  tracker.begin({});
+  EXPECT_TRUE(tracker.begun_moving()) << "the next one, too";
+  tracker.advance(after(2 * kStepNs));
+  EXPECT_EQ(tracker.begin({}).twist[3], 0.0) << "its time has passed";
+  EXPECT_FALSE(tracker.begun_moving());
+
+  tracker.reset(known);
+  tracker.begin({});
+  tracker.advance(after(kStepNs));
+  tracker.accept(at(2.0), MotionVerdict::kPossible, false);
+  EXPECT_FALSE(tracker.begun_moving());
+  EXPECT_EQ(tracker.begin({}).twist[3], 0.0) << "a later map has nothing to do with it";
+}
+
 TEST(MotionTracker, AfterAJumpTheStepIsThatFromClaimToClaim) {
   MotionTracker tracker = driving();
   tracker.advance(after(kStepNs));

@@ -195,7 +195,7 @@ TEST(Metrics, TheSummaryNamesOneElevationOffset) {
   const std::string corrected = run_summary(run_metrics(run));
   EXPECT_THAT(corrected, HasSubstr("given +0.205 deg (--elevation-correction)"));
   EXPECT_THAT(corrected, HasSubstr("applied +0.201 deg at last, +0.197 deg from the first sweep on\n"));
-  EXPECT_THAT(corrected, HasSubstr("passes          2: restarted after 18 sweeps with these angles\n"));
+  EXPECT_THAT(corrected, HasSubstr("passes          2: restarted after 18 sweeps with what they say\n"));
   run.restart->elevation_offset_deg = 0;
   EXPECT_THAT(run_summary(run_metrics(run)), Not(HasSubstr("at last")));
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@
 #include "rilo/calibration/sensor_angles.hpp"
 #include "rilo/cloud/sweep.hpp"
 #include "rilo/geometry/trajectory.hpp"
+#include "rilo/odometry/known_velocity.hpp"
 #include "rilo/odometry/odometry_config.hpp"
 #include "rilo/odometry/sweep_result.hpp"
 
@@ -65,8 +67,9 @@ class Odometry {
   SensorAngles sensor_angles() const;
 
   /// As reset(), but what was learnt about the sensor stays: its elevation offset, if that is certain, and the angles
-  /// of its beams correct the points from the next sweep on. Returns the elevation offset (rad).
-  double start_over();
+  /// of its beams correct the points from the next sweep on. With a `velocity` the maps that begin before its time
+  /// begin with it: a second sweep alone may not tell the motion. Returns the elevation offset (rad).
+  double start_over(const std::optional<KnownVelocity>& velocity = std::nullopt);
 
  private:
   class Impl;

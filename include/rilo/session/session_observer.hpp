@@ -28,6 +28,7 @@ struct Restart {
   std::size_t after_sweeps = 0;       ///< registered in the first pass
   double elevation_offset_deg = 0;    ///< applied from the first sweep of the second pass on
   double beam_elevation_rms_deg = 0;  ///< of the corrections of single beams, likewise
+  bool begins_moving = false;         ///< with the velocity of the first pass, whose map began late
 };
 
 /// The same sweeps, registered without times and with them. With them raw points are nearer to the planes of the map,

@@ -66,6 +66,20 @@ VelodyneModel hdl64(const std::filesystem::path& file, const std::filesystem::pa
   return model;
 }
 
+bool has_bank(std::string_view packet, std::string_view flag) {
+  constexpr std::size_t kBlock = 100;
+  for (std::size_t block = 0; block < 12; ++block) {
+    if (packet.substr(block * kBlock, 2) == flag) return true;
+  }
+  return false;
+}
+
+IoError not_decoded(const std::filesystem::path& file, const std::string& found) {
+  return IoError({file, "", found,
+                  "an HDL-32E (0x21), VLP-16 (0x22), Puck Hi-Res (0x24), VLP-32C (0x28) or HDL-64E (two banks)",
+                  "Decode the packets with Velodyne's driver and record the point clouds (PointCloud2)"});
+}
+
 double number_of(const YAML::Node& laser, const char* key) {
   const YAML::Node value = laser[key];
   return value ? value.as<double>() : 0.0;
@@ -84,10 +98,11 @@ void set_rings(VelodyneModel& model) {
 
 VelodyneModel velodyne_model(std::string_view packet, const std::filesystem::path& file,
                              const std::filesystem::path& calibration) {
-  constexpr std::size_t kBlock = 100;
-  for (std::size_t block = 0; block < 12; ++block) {
-    if (packet.substr(block * kBlock, 2) == "\xFF\xDD") return hdl64(file, calibration);
+  // Before the HDL-64E, whose two banks it has as well, and whose last byte may be any.
+  if (has_bank(packet, "\xFF\xCC") || has_bank(packet, "\xFF\xBB")) {
+    throw not_decoded(file, "packets of a Velodyne VLS-128 (Alpha Prime), which has four banks");
   }
+  if (has_bank(packet, "\xFF\xDD")) return hdl64(file, calibration);
   VelodyneModel model;
   const auto product = static_cast<unsigned char>(packet[kVelodynePacket - 1]);
   switch (product) {
@@ -106,9 +121,7 @@ VelodyneModel velodyne_model(std::string_view packet, const std::filesystem::pat
       for (std::size_t i = 0; i < 32; ++i) model.lasers[i].azimuth_rad = kVlp32CAzimuth[i] * kRadPerDeg;
       break;
     default:
-      throw IoError({file, "", fmt::format("Velodyne's product number 0x{:02x}", product),
-                     "0x21 (HDL-32E), 0x22 (VLP-16), 0x24 (Puck Hi-Res), 0x28 (VLP-32C) or an HDL-64E's two banks",
-                     "Decode the packets with Velodyne's driver and record the point clouds"});
+      throw not_decoded(file, fmt::format("Velodyne's product number 0x{:02x}", product));
   }
   model.product = product;
   if (!calibration.empty()) read_velodyne_calibration(calibration, model);

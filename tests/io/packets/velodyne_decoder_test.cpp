@@ -136,7 +136,7 @@ std::string calibration_of(int lasers, int last_id) {
 
 TEST(VelodyneModelTest, AnyMayHaveACalibration) {
   const TempDir folder;
-  std::string two_banks = velodyne_packet(0, 20, 0, 0);
+  std::string two_banks = velodyne_packet(0, 20, 0, 0xA1);  // an HDL-64E has the states of the sensor there
   two_banks[101] = '\xDD';
   const auto hdl64 = detail::velodyne_model(two_banks, "f", folder.write("64.yaml", calibration_of(64, 63)));
   EXPECT_DOUBLE_EQ(hdl64.lasers[63].fires_after_us, 31 * 1.5);  // both banks at once

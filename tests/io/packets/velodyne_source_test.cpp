@@ -106,6 +106,20 @@ TEST(VelodyneTest, TwoBanksNeedACalibration) {
   expect_io_error([&] { open_scan_source(file, options); }, {"bad.yaml"});
 }
 
+// Its four banks of 32 lasers have the flags of an HDL-64E's two among them.
+TEST(VelodyneTest, FourBanksAreRefused) {
+  constexpr std::string_view kBanks = "\xEE\xDD\xCC\xBB";
+  std::string packet = velodyne_packet(18000, 0, 0, 0xA1);
+  for (std::size_t block = 0; block < 12; ++block) packet[block * 100 + 1] = kBanks[block % 4];
+  const TempDir folder;
+  const auto file = folder.write("v.pcap", Capture().udp(kCaptureBegin, 2368, packet).text());
+  SourceOptions options;
+  for (const bool calibrated : {false, true}) {
+    if (calibrated) options.sensor_file = folder.write("64e.yaml", hdl64_calibration(64)).string();
+    expect_io_error([&] { open_scan_source(file, options); }, {"v.pcap", "VLS-128", "VLP-32C", "PointCloud2"});
+  }
+}
+
 TEST(VelodyneTest, TheHourEnds) {
   const TempDir folder;
   const auto source = open_scan_source(folder.write("v.pcap", velodyne_drive(0x22, 6, 18000, 3'599'700'000U).text()));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <sqlite3.h>
 #include <string>
+#include <utility>
 
 #include "io/file_bytes.hpp"
 #include "io/ros/recording.hpp"
@@ -119,8 +120,9 @@ class Db3Reader final : public Recording {
     const Statement rows = database_.prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id");
     while (database_.step(rows.get())) {
       ids_.push_back(sqlite3_column_int64(rows.get(), 0));
-      topics_.push_back(
-          {Database::text(rows.get(), 1), Database::text(rows.get(), 2), Database::text(rows.get(), 3), 0});
+      std::string encoding = Database::text(rows.get(), 3);
+      if (encoding.empty()) encoding = "cdr";  // some writers leave it out, and ROS 2 has no other
+      topics_.push_back({Database::text(rows.get(), 1), Database::text(rows.get(), 2), std::move(encoding), 0});
     }
     count_messages();
   }

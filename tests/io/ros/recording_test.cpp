@@ -245,6 +245,16 @@ TEST(RecordingTest, ASecondSensorInTheTopicIsNamed) {
   EXPECT_FALSE(first->next());
 }
 
+TEST(RecordingTest, AnEmptySerializationFormatIsCdr) {
+  const TempDir folder;
+  const auto sweeps = numbered_sweeps(2);
+  const auto messages = recorded(sweeps, MessageEncoding::kCdr);
+  write_db3(folder / "e.db3", kRos2Topics, messages, "");
+  expect_same_sweep(open_scan_source(folder / "e.db3")->next().value(), sweeps[0]);
+  write_db3(folder / "f.db3", kRos2Topics, messages, "flat");
+  expect_io_error([&] { open_scan_source(folder / "f.db3"); }, {"f.db3", "encoding 'flat'"});
+}
+
 std::size_t read_all(const fs::path& file) {
   SourceOptions options;
   options.read_ahead = 0;

@@ -129,7 +129,8 @@ std::string mcap_bytes(const Topics& topics, const std::vector<Recorded>& messag
   return file + record(2, Bytes().put(summary).put(std::uint64_t{0}).put(std::uint32_t{0}).text) + magic;
 }
 
-void write_db3(const std::filesystem::path& file, const Topics& topics, const std::vector<Recorded>& messages) {
+void write_db3(const std::filesystem::path& file, const Topics& topics, const std::vector<Recorded>& messages,
+               const std::string& serialization_format) {
   sqlite3* database = nullptr;
   sqlite3_open(file.c_str(), &database);
   const auto run = [&](const std::string& sql) {
@@ -144,7 +145,7 @@ void write_db3(const std::filesystem::path& file, const Topics& topics, const st
   run("CREATE INDEX timestamp_idx ON messages (timestamp ASC)");
   for (std::size_t i = 0; i < topics.size(); ++i) {
     run("INSERT INTO topics VALUES (" + std::to_string(i + 1) + ", '" + topics[i].first + "', '" + topics[i].second +
-        "', 'cdr', '')");
+        "', '" + serialization_format + "', '')");
   }
   for (const Recorded& message : messages) {
     sqlite3_stmt* row = nullptr;

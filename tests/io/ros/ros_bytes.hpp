@@ -136,7 +136,8 @@ struct McapShape {
 std::string mcap_bytes(const Topics& topics, const std::vector<Recorded>& messages, const McapShape& shape);
 
 /// As the recorder of ROS 2 writes it.
-void write_db3(const std::filesystem::path& file, const Topics& topics, const std::vector<Recorded>& messages);
+void write_db3(const std::filesystem::path& file, const Topics& topics, const std::vector<Recorded>& messages,
+               const std::string& serialization_format = "cdr");
 
 /// metadata.yaml of a rosbag2 folder.
 std::string metadata_yaml(const std::vector<std::string>& files, const std::string& storage,

@@ -48,6 +48,15 @@ std::string advice(const nlohmann::json& j, const std::string& options) {
   return text;
 }
 
+std::string points_text(const nlohmann::json& j) {
+  const auto& points = j["points"];
+  const std::size_t near_axis = count(points["near_axis"]);
+  return fmt::format("points        min {} mean {:.0f} max {}, {} not finite{} (of {} read)\n", count(points["min"]),
+                     real(points["mean"]), count(points["max"]), count(points["not_finite"]),
+                     near_axis > 0 ? fmt::format(", {} within 0.1 m of the sensor's axis", near_axis) : "",
+                     counted(count(j["sweeps_read"]), "sweep"));
+}
+
 std::string compensation_text(const nlohmann::json& j) {
   const auto& trial = j["compensation"];
   if (trial.is_null() || count(trial["sweeps"]) == 0) return "";
@@ -74,10 +83,7 @@ std::string info_text(const nlohmann::json& j, const std::string& options) {
   if (!word(j["topic"]).empty()) {
     text += fmt::format("topic         {}, frame {}\n", word(j["topic"]), word(j["frame_id"]));
   }
-  const auto& points = j["points"];
-  text += fmt::format("points        min {} mean {:.0f} max {}, {} not finite (of {} read)\n", count(points["min"]),
-                      real(points["mean"]), count(points["max"]), count(points["not_finite"]),
-                      counted(count(j["sweeps_read"]), "sweep"));
+  text += points_text(j);
   if (!j["range_m"].is_null()) {
     const auto& range = j["range_m"];
     text += fmt::format("range         5 % {:.1f} m, median {:.1f} m, 95 % {:.1f} m, max {:.1f} m\n", real(range["p5"]),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cloud/sensor_axis.hpp"
 #include "results/unusable_sweeps.hpp"
 #include "rilo/io/point_times.hpp"
 
@@ -22,6 +23,7 @@ void look_at(const Sweep& sweep, DataSurvey& survey) {
   for (std::size_t i = 0; i < n; ++i) {
     const bool finite = sweep.points[i].allFinite();
     survey.not_finite += finite ? 0 : 1;
+    survey.near_axis += finite && detail::is_near_axis(sweep.points[i]) ? 1 : 0;
     if (finite && i % stride == 0) {
       const double range_m = sweep.points[i].cast<double>().norm();
       survey.usable += within_range(range_m, PreprocessConfig{}) ? 1 : 0;

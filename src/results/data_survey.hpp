@@ -19,6 +19,7 @@ struct DataSurvey {
   std::size_t least = 0;
   std::size_t most = 0;
   std::size_t not_finite = 0;
+  std::size_t near_axis = 0;                ///< of all points: where some drivers put what did not return
   std::size_t usable = 0;                   ///< neither too near nor too far, of those in `ranges`
   std::vector<double> ranges;               ///< of some points of each sweep, m
   std::bitset<kAzimuthSectors> directions;  ///< in which any sweep has points

@@ -136,6 +136,21 @@ TEST(InfoCommand, WithoutPointTimesItAsksWhetherThePointsAreRaw) {
   expect_parts(few.out, {"--point-times azimuth   (raw", "--point-times none "});
 }
 
+// 0.7 mm above the sensor or below it, as a driver writes it with the offset of the laser.
+TEST(InfoCommand, ReturnsWithoutRangeDoNotHideTheOrder) {
+  const TempDir folder;
+  std::string bytes;
+  for (int i = 0; i < 6000; ++i) {
+    const float angle = 0.001F * static_cast<float>(i);
+    const bool returned = i % 5 < 2;
+    bytes += returned ? bytes_of<float>({9.0F * std::cos(angle), 9.0F * std::sin(angle), 1.0F, 0.0F})
+                      : bytes_of<float>({0.0F, 0.0F, i % 2 == 0 ? 0.0007F : -0.0007F, 0.0F});
+  }
+  folder.write("data/0.bin", bytes);
+  const std::string text = rilo_succeeds({"info", folder / "data"}).out;
+  expect_parts(text, {"3600 within 0.1 m of the sensor's axis", "--point-times order   (raw points)"});
+}
+
 // A window that the sensor looks through is not: its sweeps see the same directions.
 TEST(InfoCommand, SaysThatSweepsArePartsOfARevolution) {
   for (const bool in_turn : {true, false}) {

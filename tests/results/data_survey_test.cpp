@@ -66,6 +66,13 @@ TEST(DataSurvey, ExtremesOfAllSweeps) {
   EXPECT_EQ(seen.sectors_max, 36U);
 }
 
+TEST(DataSurvey, CountsThePointsNearTheAxis) {
+  std::vector<Sweep> sweeps(2);
+  sweeps[0].points = {{5, 0, 0}, {0.05F, -0.05F, 3}, {0, 0, 0}};
+  sweeps[1].points = {{0.099F, 0, -1}, {0, 0.101F, 0}, {std::numeric_limits<float>::quiet_NaN(), 0, 0}};
+  EXPECT_EQ(survey(std::move(sweeps)).near_axis, 3U);
+}
+
 TEST(UnusableSweeps, AreToldWhenTheyAreMostWithTheReasonOfTheFirst) {
   PreprocessConfig config;
   config.min_range_m = 1;

@@ -76,8 +76,8 @@ std::vector<float> azimuth_times(const std::vector<Eigen::Vector3f>& points, dou
 
 /// Times of points that lie in the order in which a sensor that turns measured them, whatever the direction, the seam
 /// and the angle of a sweep: the share of the angle that is swept before a point, of `period_s`. Nothing when the
-/// points do not go round once, in one direction, or are too few to tell. Points without a measurement are timed by
-/// their place.
+/// points do not go round once, in one direction, or are too few to tell. Points without a measurement, or within 0.1 m
+/// of the sensor's axis, are timed by their place.
 std::optional<std::vector<float>> order_times(const std::vector<Eigen::Vector3f>& points, double period_s);
 
 /// The stamp of a pose at the middle of a sweep: `middle_ns`, or the sweep's own stamp when they are at most a

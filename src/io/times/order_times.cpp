@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cloud/measured_point.hpp"
+#include "cloud/sensor_axis.hpp"
 #include "rilo/io/point_times.hpp"
 
 namespace rilo {
@@ -28,7 +29,7 @@ std::optional<Turns> turns_of(const std::vector<Eigen::Vector3f>& points) {
   std::vector<std::size_t> measured;
   measured.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (detail::is_measured(points[i])) measured.push_back(i);
+    if (detail::is_measured(points[i]) && !detail::is_near_axis(points[i])) measured.push_back(i);
   }
   if (measured.size() < kBlocks * kLeastInBlock) return std::nullopt;
   Turns turns;

@@ -83,6 +83,16 @@ TEST(OrderTimes, NotANumberIsTimedByItsPlace) {
   EXPECT_LT(error(measured), 0.002);
 }
 
+// Some drivers write the height of the laser instead of zeros where nothing returned, with noise.
+TEST(OrderTimes, NearTheAxisIsTimedByItsPlace) {
+  Measured measured = spinning(2.0, -kTurn);
+  for (std::size_t i = 0; i < measured.points.size(); ++i) {
+    const float side = i % 2 == 0 ? 0.09F : -0.09F;
+    if (i % 5 < 3) measured.points[i] = {i % 3 == 0 ? side : 0.0F, i % 3 == 0 ? 0.0F : side, 0.01F};
+  }
+  EXPECT_LT(error(measured), 0.003);
+}
+
 TEST(OrderTimes, NoneWhereTheOrderIsAnother) {
   const Measured turn = spinning(0.0, -kTurn);
   std::vector<Eigen::Vector3f> by_ring;

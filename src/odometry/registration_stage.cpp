@@ -49,6 +49,7 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
     refuted = initial;
   }
   if (parts.tracker.begun_moving()) {
+    // The motion is known better than two sweeps alone show it.
     return search.to_map(predicted, parts.tracker.prior(std::nullopt), parts.sigma_th_m, parts.config.icp,
                          search.end());
   }

@@ -69,8 +69,7 @@ void ProgressLine::on_warning(const std::string& warning) { progress_.say("rilo:
 void ProgressLine::on_restart(const Restart& restart) {
   progress_.say(
       fmt::format("rilo: learnt from {}: elevation offset of the sensor {:+.3f} deg, single beams rms {:.3f} deg{}; "
-                  "restarting with "
-                  "them (not with --one-pass)",
+                  "restarting with them (not with --one-pass)",
                   counted(restart.after_sweeps, "sweep"), restart.elevation_offset_deg, restart.beam_elevation_rms_deg,
                   restart.begins_moving ? ", the motion at the beginning" : ""));
   done_ = 0;

@@ -4,9 +4,14 @@
 
 #include <fmt/format.h>
 
+#include "io/stamp_difference.hpp"
+
 namespace rilo {
 
 namespace {
+
+// So much later the velocity says nothing about the first sweep, or a clock was set meanwhile.
+constexpr double kTooLateS = 10.0;
 
 std::string why(const std::vector<SweepResult>& results, std::size_t begun) {
   if (2 * begun <= results.size()) return "";
@@ -40,7 +45,9 @@ std::optional<KnownVelocity> velocity_after_late_beginning(const std::vector<Swe
   const auto begun = std::count_if(results.begin(), first,
                                    [](const SweepResult& r) { return r.status == OdometryStatus::kInitialising; });
   if (first == results.end() || begun < 2) return std::nullopt;
-  return KnownVelocity{first->twist, static_cast<double>(first->stamp_ns - results.front().stamp_ns) * 1e-9};
+  const double at_s = detail::seconds_between(results.front().stamp_ns, first->stamp_ns);
+  if (!(at_s > 0.0 && at_s < kTooLateS)) return std::nullopt;
+  return KnownVelocity{first->twist, at_s};
 }
 
 }  // namespace rilo

@@ -3,36 +3,12 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-namespace rilo {
+#include "tracked_motion.hpp"
+
+namespace rilo::test {
 namespace {
-
-constexpr std::int64_t kStepNs = 100'000'000;
-
-SweepTime after(std::int64_t step_ns) { return {0, step_ns, step_ns, true}; }
-
-IcpResult at(double x) {
-  IcpResult icp;
-  icp.state.T_odom_lidar.translation().x() = x;
-  icp.state.twist[3] = 10.0;
-  icp.posterior_information.setIdentity();
-  return icp;
-}
-
-/// Three sweeps, 1 m apart at 10 m/s; the last is at x = 2 m.
-MotionTracker driving() {
-  MotionTracker tracker({}, {}, {});
-  tracker.begin({});
-  for (const double x : {1.0, 2.0}) {
-    tracker.advance(after(kStepNs));
-    tracker.accept(at(x), MotionVerdict::kPossible, false);
-  }
-  return tracker;
-}
-
-double x_of(const MotionState& state) { return state.T_odom_lidar.translation().x(); }
 
 TEST(MotionTracker, LostPosesDoNotEnterThePrediction) {
   MotionTracker tracker = driving();
@@ -138,111 +114,6 @@ TEST(MotionTracker, LearnsHowItIsTurnedFromSweepsInARow) {
   EXPECT_EQ(information_when_swayed(true), configured);
 }
 
-TEST(MotionTracker, AJumpIsTakenWhenTwoSweepsAgreeAndGivesNoVelocity) {
-  MotionTracker tracker = driving();
-  tracker.advance(after(kStepNs));
-  EXPECT_EQ(tracker.weigh(at(9.0).state.T_odom_lidar), MotionVerdict::kImpossible);  // six sweeps are missing
-  tracker.lose(tracker.predicted(0.3), at(9.0).state.T_odom_lidar);
-  tracker.advance(after(kStepNs));
-  EXPECT_NEAR(x_of(*tracker.predicted_from_claim()), 10.0, 1e-9);
-  EXPECT_EQ(tracker.weigh(at(10.0).state.T_odom_lidar), MotionVerdict::kJump);
-  EXPECT_EQ(tracker.weigh(at(14.0).state.T_odom_lidar), MotionVerdict::kImpossible);
-  tracker.accept(at(10.0), MotionVerdict::kJump, false);
-  EXPECT_FALSE(tracker.lost());
-  tracker.advance(after(kStepNs));
-  EXPECT_NEAR(x_of(tracker.predicted(0.3)), 11.0, 1e-6);
-}
-
-TEST(MotionTracker, AnImpossibleMotionImpliesNoVelocity) {
-  MotionTracker tracker = driving();
-  tracker.advance(after(kStepNs));
-  EXPECT_NEAR(tracker.implied_twist(at(3.2).state.T_odom_lidar)[3], 12.0, 1e-9);
-  EXPECT_NEAR(tracker.implied_twist(at(9.0).state.T_odom_lidar)[3], 10.0, 1e-9);
-}
-
-TEST(MotionTracker, AJumpLeavesTheVelocityFromBefore) {
-  MotionTracker tracker = driving();
-  tracker.advance(after(kStepNs));
-  tracker.lose(tracker.predicted(0.3), at(9.0).state.T_odom_lidar);
-  tracker.advance(after(kStepNs));
-  IcpResult jump = at(10.0);
-  jump.state.twist[3] = 40.0;  // what the way there implies
-  tracker.accept(jump, MotionVerdict::kJump, false);
-  EXPECT_NEAR(tracker.trusted().twist[3], 10.0, 1e-12);
-}
-
-// Six sweeps are missing without their stamps, and the first one after them fits as usual.
-TEST(MotionTracker, AJumpAtOnceLeavesTheMotionFromBeforeToo) {
-  MotionTracker tracker = driving();
-  tracker.advance(after(kStepNs));
-  IcpResult jump = at(9.0);
-  jump.state.twist[3] = 70.0;
-  EXPECT_NEAR(tracker.accept(jump, MotionVerdict::kJump, false).x(), 7.0, 1e-12);
-  EXPECT_NEAR(tracker.trusted().twist[3], 10.0, 1e-12);
-  tracker.advance(after(kStepNs));
-  EXPECT_NEAR(x_of(tracker.predicted(0.3)), 10.0, 1e-6);
-  EXPECT_EQ(tracker.weigh(at(10.0).state.T_odom_lidar), MotionVerdict::kPossible);
-  EXPECT_EQ(tracker.weigh(at(16.0).state.T_odom_lidar), MotionVerdict::kImpossible);
-}
-
-// The sweep after a claim fits as usual elsewhere: the claim was wrong, and the way from it is no motion.
-TEST(MotionTracker, AJumpThatContradictsTheClaimLeavesTheStepFromBefore) {
-  MotionTracker tracker = driving();
-  tracker.advance(after(kStepNs));
-  tracker.lose(tracker.predicted(0.3), at(50.0).state.T_odom_lidar);
-  tracker.advance(after(kStepNs));
-  ASSERT_EQ(tracker.weigh(at(20.0).state.T_odom_lidar), MotionVerdict::kImpossible);
-  tracker.accept(at(20.0), MotionVerdict::kJump, false);
-  tracker.advance(after(kStepNs));
-  EXPECT_EQ(tracker.weigh(at(21.0).state.T_odom_lidar), MotionVerdict::kPossible);
-}
-
-TEST(MotionTracker, TwoClaimsInARowMayMoveOtherwiseThanBefore) {
-  MotionTracker tracker = driving();
-  const auto claimed = [&](double x) {
-    tracker.advance(after(kStepNs));
-    tracker.lose(tracker.predicted(0.3), at(x).state.T_odom_lidar);
-  };
-  claimed(50.0);
-  claimed(54.0);
-  tracker.advance(after(kStepNs));
-  EXPECT_EQ(tracker.weigh(at(58.0).state.T_odom_lidar), MotionVerdict::kJump) << "40 m/s as from claim to claim";
-  EXPECT_EQ(tracker.weigh(at(55.0).state.T_odom_lidar), MotionVerdict::kJump) << "10 m/s as before the loss";
-  EXPECT_EQ(tracker.weigh(at(56.5).state.T_odom_lidar), MotionVerdict::kImpossible);
-}
-
-TEST(MotionTracker, AClaimIsForTheNextSweepAlone) {
-  MotionTracker tracker = driving();
-  tracker.advance(after(kStepNs));
-  tracker.lose(tracker.predicted(0.3), at(9.0).state.T_odom_lidar);
-  MotionTracker accepted = tracker;
-  tracker.advance(after(kStepNs));
-  ASSERT_TRUE(tracker.predicted_from_claim());
-  tracker.lose(tracker.predicted(0.3), std::nullopt);
-  EXPECT_FALSE(tracker.predicted_from_claim());
-  accepted.advance(after(kStepNs));
-  accepted.accept(at(4.0), MotionVerdict::kPossible, false);
-  EXPECT_FALSE(accepted.predicted_from_claim());
-}
-
-TEST(MotionTracker, AfterALongLossTheMotionBeforeIsNoEvidence) {
-  const auto next_after_losses = [](int losses) {
-    MotionTracker tracker = driving();
-    for (int i = 0; i < losses; ++i) {
-      tracker.advance(after(kStepNs));
-      tracker.lose(tracker.predicted(0.3), std::nullopt);
-    }
-    tracker.advance(after(kStepNs));
-    tracker.accept(at(3.0 + losses), MotionVerdict::kPossible, false);
-    tracker.advance(after(kStepNs));
-    return tracker.weigh(at(8.0 + losses).state.T_odom_lidar);  // 5 m on, at 50 m/s
-  };
-  EXPECT_EQ(next_after_losses(1), MotionVerdict::kImpossible) << "it had 10 m/s";
-  EXPECT_EQ(next_after_losses(4), MotionVerdict::kPossible);
-}
-
-Matrix12d covariance_of(const MotionPrior& prior) { return prior.information.ldlt().solve(Matrix12d::Identity()); }
-
 TEST(MotionTracker, AfterALossTheVelocityIsNotKnown) {
   MotionTracker tracker = driving();
   tracker.advance(after(kStepNs));
@@ -323,19 +194,6 @@ TEST(MotionTracker, AMapBeginsWithAKnownVelocityUntilASweepIsAcceptedOrItsTimeHa
   EXPECT_EQ(tracker.begin({}).twist[3], 0.0) << "a later map has nothing to do with it";
 }
 
-TEST(MotionTracker, AfterAJumpTheStepIsThatFromClaimToClaim) {
-  MotionTracker tracker = driving();
-  tracker.advance(after(kStepNs));
-  tracker.lose(tracker.predicted(0.3), at(50.0).state.T_odom_lidar);
-  tracker.advance(after(kStepNs));
-  tracker.lose(tracker.predicted(0.3), at(54.0).state.T_odom_lidar);
-  tracker.advance(after(kStepNs));
-  tracker.accept(at(58.0), MotionVerdict::kJump, false);
-  tracker.advance(after(kStepNs));
-  EXPECT_EQ(tracker.weigh(at(62.0).state.T_odom_lidar), MotionVerdict::kPossible);
-  EXPECT_EQ(tracker.weigh(at(59.0).state.T_odom_lidar), MotionVerdict::kImpossible);
-}
-
 TEST(MotionTracker, ThePriorExpectsTurnsToEndAndPosesStayRotations) {
   MotionTracker tracker = driving();
   tracker.advance(after(kStepNs));
@@ -351,4 +209,4 @@ TEST(MotionTracker, ThePriorExpectsTurnsToEndAndPosesStayRotations) {
 }
 
 }  // namespace
-}  // namespace rilo
+}  // namespace rilo::test

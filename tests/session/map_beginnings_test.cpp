@@ -1,6 +1,8 @@
 // Maps that begin again: the sentence about them, and the velocity to begin with in another pass.
 #include "session/map_beginnings.hpp"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -68,6 +70,15 @@ TEST(FurtherMaps, WhereMostSweepsBeginOneTheCauseIsNamed) {
 TEST(LateBeginning, NoneWhereTheFirstMapHoldsOrNoneDoes) {
   for (const char* sweeps : {"", "i", "io", "eioo", "ioooliio", "iiii", "iid"}) {
     EXPECT_FALSE(velocity_after_late_beginning(results_of(sweeps))) << sweeps;
+  }
+}
+
+TEST(LateBeginning, NoneLongAfterTheFirstSweepOrBeforeIt) {
+  std::vector<SweepResult> results = results_of("iio");
+  for (const std::int64_t stamp_ns : {std::int64_t{-9'000'000'000'000'000'000}, results[0].stamp_ns,
+                                      results[0].stamp_ns + 20'000'000'000, std::numeric_limits<std::int64_t>::max()}) {
+    results[2].stamp_ns = stamp_ns;
+    EXPECT_FALSE(velocity_after_late_beginning(results)) << stamp_ns;
   }
 }
 

@@ -194,6 +194,7 @@ void MotionTracker::remember(bool timed) {
 void MotionTracker::lose(const MotionState& predicted, const std::optional<SE3>& claim) {
   state_ = predicted;
   velocity_covariance_ = unknown_velocity_covariance();
+  begun_moving_ = false;
   lost_ = true;
   if (!claim) {
     claim_.reset();

@@ -64,7 +64,7 @@ class MotionTracker {
   /// A map begins at `guess`, with the velocity there unless that is known better. Returns the state of its first
   /// sweep.
   MotionState begin(const MotionState& guess);
-  /// Whether the map began with a known velocity, and no sweep was accepted since.
+  /// Whether the map began with a known velocity, and no sweep came since.
   bool begun_moving() const { return begun_moving_; }
   /// Takes the registered state of a sweep. Returns the displacement since the last trusted pose (sensor frame, m).
   Eigen::Vector3d accept(const IcpResult& icp, MotionVerdict verdict, bool degenerate);

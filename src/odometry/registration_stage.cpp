@@ -41,17 +41,17 @@ void retry_as_before(const RegistrationParts& parts, const PoseSearch& search, R
 
 Registration fine_registration(const RegistrationParts& parts, const MotionState& predicted, const InitialPose& init) {
   const PoseSearch search(parts);
+  if (parts.tracker.begun_moving()) {
+    // The motion is known better than two sweeps alone show it.
+    return search.to_map(predicted, parts.tracker.prior(std::nullopt), parts.sigma_th_m, parts.config.icp,
+                         search.end());
+  }
   MotionState initial = predicted;
   std::optional<MotionState> refuted;
   if (init.source == InitialPoseSource::kCoarse || parts.tracker.lost()) {
     // The sweep has just refuted the prediction: start where it fits, with the velocity that this implies.
     initial = {init.T_odom_lidar, parts.tracker.implied_twist(init.T_odom_lidar)};
     refuted = initial;
-  }
-  if (parts.tracker.begun_moving()) {
-    // The motion is known better than two sweeps alone show it.
-    return search.to_map(predicted, parts.tracker.prior(std::nullopt), parts.sigma_th_m, parts.config.icp,
-                         search.end());
   }
   if (parts.map.sweeps() == 1) {
     return SecondSweep(parts, search).registered(initial, parts.tracker.prior(refuted));

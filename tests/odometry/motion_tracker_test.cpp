@@ -189,6 +189,10 @@ TEST(MotionTracker, AMapBeginsWithAKnownVelocityUntilASweepIsAcceptedOrItsTimeHa
   tracker.reset(known);
   tracker.begin({});
   tracker.advance(after(kStepNs));
+  MotionTracker lost = tracker;
+  lost.lose(lost.predicted(0.3), std::nullopt);
+  EXPECT_FALSE(lost.begun_moving()) << "the velocity is unknown after a loss, that of an empty sweep, too";
+  EXPECT_EQ(lost.begin({}).twist[3], 20.0) << "but the next map begins with it";
   tracker.accept(at(2.0), MotionVerdict::kPossible, false);
   EXPECT_FALSE(tracker.begun_moving());
   EXPECT_EQ(tracker.begin({}).twist[3], 0.0) << "a later map has nothing to do with it";

@@ -16,8 +16,8 @@ namespace {
 
 constexpr const char* kBenchFooter =
     R"(FILE lists sequences and configurations; each configuration is run on each sequence, in a process of its own. See
-docs/bench.md for its keys. A cell that fails is reported, the others still run (exit code 3 at the end, or that of the
-first failure). Ctrl-C ends the benchmark and writes what is finished. The same command again runs only what is not
+docs/bench.md for its keys. A cell that fails is reported, the others still run; the exit code at the end is that of the
+first failure. Ctrl-C ends the benchmark and writes what is finished. The same command again runs only what is not
 finished: cells that failed, that were interrupted, or whose data, configuration or program were changed.
 
   configurations:
@@ -66,7 +66,7 @@ void add_common_flags(CLI::App& command, BenchFlags& flags) {
       .add_option("--baseline", order.baseline,
                   "folder, results.json or results.sqlite of an earlier benchmark to print the difference to")
       ->check(path_given());
-  command.add_option("--count", order.run.count, "run that many sweeps of every sequence; 0: all, or as in FILE")
+  command.add_option("--count", order.run.count, "run that many sweeps of every sequence; 0: as FILE says, else all")
       ->check(whole_number());
   command
       .add_option("--threads", order.run.threads,
@@ -82,7 +82,7 @@ void add_common_flags(CLI::App& command, BenchFlags& flags) {
       ->check(whole_number(10000));
   command.add_option("--retries", order.retries, "run a cell that failed that many times more")
       ->check(whole_number(100));
-  command.add_option("--repeats", flags.repeats, "run every cell that often, instead of the number in FILE")
+  command.add_option("--repeats", flags.repeats, "run every cell that often; default: as FILE says, else once")
       ->check(number_within(1, 1000));
   command.add_option("--sbatch", order.sbatch, "option for sbatch, repeatable: --sbatch=--time=60")
       ->allow_extra_args(false);

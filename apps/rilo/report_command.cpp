@@ -25,8 +25,8 @@ constexpr const char* kReportFooter =
   a folder that rilo run wrote (--out; with its map when that is in the folder: --map FOLDER/map.ply),
   a folder, results.json or results.sqlite that rilo bench wrote, or
   a pose file of any program, KITTI, TUM or EuRoC form, poses of the LiDAR at the middle of the sweeps.
-Runs over the same data are compared with each other; SEQUENCE/ is only needed where results do not name their sequence
-of. Truth is what lies beside the data that were run; --gt names another.
+Runs over the same data are compared with each other; SEQUENCE/ is only needed with several sequences, for pose files
+and killed runs. Truth is what lies beside the data that were run; --gt names another.
 
 Examples:
   rilo run drive --out full --map full/map.ply

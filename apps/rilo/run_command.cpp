@@ -58,13 +58,13 @@ Examples:
   rilo run kitti/sequences/00 --view
   rilo run sweeps/ --bin-fields x,y,z,intensity,ring --set preprocess.max_range_m=60 --map map.pcd
 
-Leaves in --out: poses_lidar.txt, poses_camera.txt (where DATA has a calib.txt), trajectory.tum, .csv (EuRoC) and .mcap
-(Foxglove, ROS 2), config.yaml (loadable), calibration.yaml (what was learnt about the sensor), sweeps.csv (one line of
-statistics per sweep), metrics.json, report.html. Where ground truth lies in DATA, errors are in metrics.json and the
-report. While running, poses_lidar.partial.txt grows by one line per sweep.
+Leaves in --out: poses_lidar.txt, poses_camera.txt (where DATA has Tr or KITTI raw's calibration), trajectory.tum, .csv
+(EuRoC), .mcap (Foxglove, ROS 2) and, in builds with ROS' library, .bag (ROS 1), config.yaml (loadable),
+calibration.yaml (what was learnt about the sensor), sweeps.csv (one line of statistics per sweep), metrics.json,
+report.html. Where ground truth lies in DATA, errors are in metrics.json and the report. While running,
+poses_lidar.partial.txt grows by one line per sweep.
 Ctrl-C, SIGTERM or a closed terminal ends the run after the current sweep and writes what there is (exit code 130, 143,
-129); a second one ends
-it at once.)";
+129); a second one ends it at once.)";
 
 OdometryConfig configuration(const RunFlags& flags) {
   OdometryConfig config = load_config(flags.config_file, flags.settings);

@@ -18,7 +18,7 @@ void add_time_flags(CLI::App& command, SourceRequest& flags) {
       },
       {"auto", "data", "azimuth", "order", "none"},
       "per-point times for motion compensation. auto: from the data when it has them; data: the same, and an error "
-      "when it has none; azimuth: from the angle of a clockwise spinning sensor whose sweep is stamped at the forward "
+      "when it has none; azimuth: from the angle of a spinning sensor (--spin) whose sweep is stamped at the forward "
       "direction (KITTI raw); order: from the order of the points of a spinning sensor; none: the points are "
       "compensated already. Default: auto");
   add_choice(

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/steady_clock.hpp"
 #include "node/base_frame.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "rilo/node/node_parameters.hpp"
-#include "session/steady_clock.hpp"
 
 namespace rilo {
 namespace {

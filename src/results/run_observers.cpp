@@ -10,11 +10,11 @@
 #include "console/interrupt.hpp"
 #include "console/text.hpp"
 #include "io/stamp_difference.hpp"
+#include "io/steady_clock.hpp"
 #include "results/partial_poses.hpp"
 #include "results/run_metrics.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/io/trajectory_files.hpp"
-#include "session/steady_clock.hpp"
 
 namespace rilo {
 

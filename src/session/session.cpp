@@ -13,6 +13,7 @@
 #include "calibration/same_sensor.hpp"
 #include "geometry/degrees.hpp"
 #include "io/sources/source_wrappers.hpp"
+#include "io/steady_clock.hpp"
 #include "io/text.hpp"
 #include "rilo/io/point_times.hpp"
 #include "session/assumed_rate.hpp"
@@ -20,7 +21,6 @@
 #include "session/compensation_trial.hpp"
 #include "session/map_beginnings.hpp"
 #include "session/process_memory.hpp"
-#include "session/steady_clock.hpp"
 
 namespace rilo {
 

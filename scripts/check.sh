@@ -7,7 +7,7 @@
 #   scripts/check.sh --stop test lint    ends at the first that fails
 #
 #   test            all tests, optimised build
-#   lint            clang-format, clang-tidy, shellcheck, links, paths
+#   lint            clang-format, clang-tidy, includes, shellcheck, links, paths
 #   separate        each source of the libraries and the command compiled by itself, not as a unity build
 #   docs            the site of documents and reference; wrong names and links are errors
 #   sanitize        all tests under AddressSanitizer and UBSan

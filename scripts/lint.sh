@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Format, clang-tidy (warnings are errors), links of the documents, and paths of a developer's machine.
+# Format, clang-tidy (warnings are errors), the direction of includes, links of the documents, and paths of a developer's
+# machine.
 # With files as arguments: clang-format and clang-tidy on these alone.
 # shellcheck source-path=SCRIPTDIR
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -47,7 +48,8 @@ tidy 2>build/.lint-errors || {
 }
 
 if [ $# -eq 0 ]; then
-  echo "lint: scripts, documents and paths"
+  echo "lint: includes, scripts, documents and paths"
+  scripts/check_includes.py || failed+=("includes")
   shellcheck --external-sources scripts/*.sh .ci/run || failed+=("shellcheck")
   scripts/check_links.sh || failed+=("links")
   # A path into somebody's home works on one machine only; the temporary folder comes from the system, never by name.

@@ -59,8 +59,7 @@ std::vector<std::string> OdometrySession::new_warnings() {
   if (untimed_ && source_options_.point_times == PointTimes::kAuto) {
     all.emplace_back(
         "no times of the points: they are used as if they were measured at once. Where they are raw, set point_times "
-        "to "
-        "order or azimuth, else to none");
+        "to order or azimuth, else to none");
   }
   for (std::string& warning : all) {
     if (std::find(given_.begin(), given_.end(), warning) == given_.end()) fresh.push_back(std::move(warning));

@@ -1,6 +1,7 @@
 // Sweeps that can tell raw points from compensated ones.
 #pragma once
 
+#include "odometry/pose_noise.hpp"
 #include "rilo/odometry/sweep_result.hpp"
 
 namespace rilo {
@@ -11,9 +12,8 @@ inline bool registered(const SweepResult& result) {
 
 /// By more than the noise of good poses, in `period_s`.
 inline bool moved(const SweepResult& result, double period_s) {
-  constexpr double kMovedM = 0.1;
-  constexpr double kTurnedRad = 0.02;
-  return period_s * result.twist.head<3>().norm() > kTurnedRad || period_s * result.twist.tail<3>().norm() > kMovedM;
+  return period_s * result.twist.head<3>().norm() > kPoseNoiseRad ||
+         period_s * result.twist.tail<3>().norm() > kPoseNoiseM;
 }
 
 }  // namespace rilo

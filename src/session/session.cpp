@@ -99,8 +99,7 @@ class Session::Impl {
     if (cones_.compensated()) {
       info.warnings.emplace_back(
           "the points have times, but seem to be compensated for the motion already (they lie on the cones of the "
-          "beams "
-          "once that is undone): try --point-times none");
+          "beams once that is undone): try --point-times none");
     }
     return info;
   }
@@ -224,8 +223,7 @@ class Session::Impl {
     if (!std::isfinite(told.sigma_rad) || !(std::abs(found.rad - told.rad) > far_rad)) return "";
     return fmt::format(
         "{}: its elevation offset, {:+.3f} ± {:.3f} deg, contradicts this recording, {:+.3f} ± {:.3f} deg, and does "
-        "not "
-        "count: of another unit, or of before a repair?",
+        "not count: of another unit, or of before a repair?",
         name_of(*options_.calibration), kDegPerRad * told.rad, kDegPerRad * told.sigma_rad, kDegPerRad * found.rad,
         kDegPerRad * found.sigma_rad);
   }

@@ -145,7 +145,7 @@ void InitialPoseStage::consider(const Situation& situation, const SE3& T, Scored
   }
 }
 
-double InitialPoseStage::candidate_score(const Situation& situation, const SE3& T, const Vector6d& twist) {
+double InitialPoseStage::candidate_score(const Situation& situation, const SE3& T, const Vector6d& twist) const {
   if (!situation.single) {
     return score(situation.source, {T, twist}, situation.map);
   }
@@ -212,14 +212,7 @@ void InitialPoseStage::begin(const TimedCloud& source, const MotionState& state,
   keep_target(source, state.twist);
 }
 
-void InitialPoseStage::reset() {
-  usual_score_ = 0.0;
-  usual_quality_ = 0.0;
-  own_score_ = 0.0;
-  target_source_ = {};
-  target_.reset();
-  moving_.reset();
-}
+void InitialPoseStage::reset() { *this = InitialPoseStage(config_, coarse_); }
 
 DistributionCloud InitialPoseStage::distribution(const std::vector<Eigen::Vector3f>& points, double share) {
   std::vector<Eigen::Vector3f> sampled;

@@ -90,8 +90,8 @@ class InitialPoseStage {
   /// The usual score, or, while it is not known, what the first sweep of the map scores on itself.
   double expected_score() const { return usual_score_ > 0.0 ? usual_score_ : own_score_; }
 
-  /// Keeps the source of a sweep, to be compensated for `twist`, as target of the next coarse registration; the
-  /// distribution that was made of it in search() where `twist` is about the velocity that it was compensated for then.
+  /// Keeps the source of a sweep as target of the next coarse registration, to be compensated for `twist`. What
+  /// search() made of it serves as it is where the velocity there was about the same.
   void keep_target(const TimedCloud& source, const Vector6d& twist);
   /// That source.
   const TimedCloud& last_source() const { return target_source_; }
@@ -112,7 +112,7 @@ class InitialPoseStage {
   void try_from(const Situation& situation, const SE3& start, Search& search);
   /// Score of a candidate: on the sweep compensated for `twist`; with more points in the single case, where the
   /// candidates differ by few of them.
-  double candidate_score(const Situation& situation, const SE3& T, const Vector6d& twist);
+  double candidate_score(const Situation& situation, const SE3& T, const Vector6d& twist) const;
   DistributionCloud distribution(const std::vector<Eigen::Vector3f>& points, double share);
   /// Whether a score is not far below the usual one.
   bool is_consistent(double score) const;

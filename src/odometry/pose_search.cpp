@@ -36,4 +36,8 @@ void PoseSearch::rate(Registration& found, const LocalMap& map) const {
   found.quality = quality_of(found.icp, found.score, parts_.prepared.source.size());
 }
 
+LocalMap PoseSearch::map_of(const TimedCloud& cloud, const MotionState& state) const {
+  return parts_.map.of_sweep(cloud, state, parts_.prepared.scene_range_m, parts_.pose_by_elevation);
+}
+
 }  // namespace rilo

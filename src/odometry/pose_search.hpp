@@ -26,6 +26,9 @@ class PoseSearch {
   /// Score and quality of a registration to a map.
   void rate(Registration& found, const LocalMap& map) const;
 
+  /// A map of this sweep alone in a state, or of some of its points.
+  LocalMap map_of(const TimedCloud& cloud, const MotionState& state) const;
+
  private:
   const RegistrationParts& parts_;
   Deadline end_;

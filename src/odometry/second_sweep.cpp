@@ -51,8 +51,7 @@ const LocalMap& SecondSweep::or_present(const std::optional<LocalMap>& compensat
 /// Velocity of the first sweep, from its registration to the second one: a sensor that speeds up or turns in between
 /// has another. The pose found beside it says nothing, since the first sweep is where the map begins.
 Vector6d SecondSweep::twist_of_first(const IcpResult& second, double sigma_m, const Deadline& deadline) const {
-  const LocalMap map =
-      parts_.map.of_sweep(map_cloud_, second.state, parts_.prepared.scene_range_m, parts_.pose_by_elevation);
+  const LocalMap map = search_.map_of(map_cloud_, second.state);
   const MotionState start{parts_.tracker.trusted().T_odom_lidar, second.state.twist};
   const IcpResult first =
       adaptive_icp(first_, map, start, parts_.tracker.prior_before(second), sigma_m, search_.icp(), deadline);
@@ -185,8 +184,7 @@ void SecondSweep::move_to_most_overlap(Registration& found) const {
   const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
   const Eigen::Matrix3d weakest_first = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors();
   for (int look = 0; look < kLooks; ++look) {
-    const LocalMap planes = parts_.map.of_sweep(parts_.prepared.map_cloud, found.icp.state,
-                                                parts_.prepared.scene_range_m, parts_.pose_by_elevation);
+    const LocalMap planes = search_.map_of(parts_.prepared.map_cloud, found.icp.state);
     std::optional<Registration> other;
     bool ambiguous = false;
     for (Eigen::Index i = 0; i < kDirections && !other && !found.cut; ++i) {

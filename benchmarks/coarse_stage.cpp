@@ -3,9 +3,9 @@
 #include <tbb/global_control.h>
 
 #include "bench_scene.hpp"
+#include "cloud/thinning.hpp"
 #include "cloud/voxel_sampler.hpp"
 #include "registration/coarse_registration.hpp"
-#include "registration/map_score.hpp"
 
 namespace rilo::bench {
 namespace {

@@ -56,4 +56,16 @@ TimedCloud thinned(const TimedCloud& cloud, double share) {
   return kept;
 }
 
+std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& points, std::size_t count) {
+  if (points.size() <= count) {
+    return points;
+  }
+  std::vector<Eigen::Vector3f> picked;
+  picked.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    picked.push_back(points[i * points.size() / count]);
+  }
+  return picked;
+}
+
 }  // namespace rilo

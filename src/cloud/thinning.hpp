@@ -1,7 +1,10 @@
-// A share of the points of a sweep.
+// Some of the points of a sweep.
 #pragma once
 
 #include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "cloud/timed_cloud.hpp"
 #include "rilo/cloud/sweep.hpp"
@@ -16,5 +19,8 @@ SweepView thinned(const SweepView& sweep, double share, Sweep& kept);
 
 /// The same of a cloud.
 TimedCloud thinned(const TimedCloud& cloud, double share);
+
+/// At most `count` points of `points`, evenly spread over their order.
+std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& points, std::size_t count);
 
 }  // namespace rilo

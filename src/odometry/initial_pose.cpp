@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cloud/deskew.hpp"
+#include "cloud/thinning.hpp"
 #include "odometry/optimum.hpp"
 #include "odometry/pose_noise.hpp"
 #include "odometry/running_mean.hpp"

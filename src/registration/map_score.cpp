@@ -62,16 +62,4 @@ bool stands_out(const std::vector<Eigen::Vector3f>& points, const LocalMap& map,
   return over(left) || over(-left) || over(front) || over(-front);
 }
 
-std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& points, std::size_t count) {
-  if (points.size() <= count) {
-    return points;
-  }
-  std::vector<Eigen::Vector3f> picked;
-  picked.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    picked.push_back(points[i * points.size() / count]);
-  }
-  return picked;
-}
-
 }  // namespace rilo

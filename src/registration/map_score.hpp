@@ -24,7 +24,4 @@ double map_score(const std::vector<Eigen::Vector3f>& points, const LocalMap& map
 bool stands_out(const std::vector<Eigen::Vector3f>& points, const LocalMap& map, const SE3& T_odom_lidar,
                 double sigma_m);
 
-/// At most `count` points of `points`, evenly spread over their order.
-std::vector<Eigen::Vector3f> evenly_picked(const std::vector<Eigen::Vector3f>& points, std::size_t count);
-
 }  // namespace rilo

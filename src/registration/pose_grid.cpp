@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cloud/fixed_chunks.hpp"
+#include "cloud/thinning.hpp"
 #include "registration/map_score.hpp"
 
 namespace rilo {

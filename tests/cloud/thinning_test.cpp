@@ -61,5 +61,18 @@ TEST(Thinning, NothingAndAll) {
   EXPECT_EQ(thinned(cloud, 0.0).size(), 0U);
 }
 
+TEST(EvenlyPicked, SpreadsOverTheOrder) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 10; ++i) {
+    points.emplace_back(static_cast<float>(i), 0.0F, 0.0F);
+  }
+  EXPECT_EQ(evenly_picked(points, 10), points);
+  EXPECT_EQ(evenly_picked(points, 100), points);
+  EXPECT_TRUE(evenly_picked(points, 0).empty());
+  EXPECT_TRUE(evenly_picked({}, 3).empty());
+  const auto picked = evenly_picked(points, 4);
+  EXPECT_EQ(picked, (std::vector<Eigen::Vector3f>{{0, 0, 0}, {2, 0, 0}, {5, 0, 0}, {7, 0, 0}}));
+}
+
 }  // namespace
 }  // namespace rilo

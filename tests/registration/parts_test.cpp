@@ -253,19 +253,6 @@ TEST(MapScore, IsOneOnThePlanesAndFallsWithTheDistance) {
   EXPECT_NEAR(map_score({{0.05F, 0.05F, -2.77F}, {0, 0, 0}}, map, SE3::Identity(), 0.1), 0.5 * std::exp(-0.5), 1e-3);
 }
 
-TEST(EvenlyPicked, SpreadsOverTheOrder) {
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 10; ++i) {
-    points.emplace_back(static_cast<float>(i), 0.0F, 0.0F);
-  }
-  EXPECT_EQ(evenly_picked(points, 10), points);
-  EXPECT_EQ(evenly_picked(points, 100), points);
-  EXPECT_TRUE(evenly_picked(points, 0).empty());
-  EXPECT_TRUE(evenly_picked({}, 3).empty());
-  const auto picked = evenly_picked(points, 4);
-  EXPECT_EQ(picked, (std::vector<Eigen::Vector3f>{{0, 0, 0}, {2, 0, 0}, {5, 0, 0}, {7, 0, 0}}));
-}
-
 TEST(Deadlines, NeverWithoutAClockAndAShareOfTheTimeLeft) {
   EXPECT_FALSE(Deadline().passed());
   EXPECT_FALSE(Deadline().passed_after(1e12));

@@ -18,6 +18,7 @@ constexpr double kRotationEpsilonRad = 5e-4;
 constexpr double kTranslationEpsilonM = 5e-3;
 // Sparse clouds: most of a search among smaller cells would be looking into empty ones.
 constexpr double kCellVoxels = 4.0;
+constexpr double kNeighbourRadii = 4.0;  // density radii within which the neighbours of a covariance lie
 }  // namespace
 
 DistributionCloud make_distribution_cloud(const std::vector<Eigen::Vector3f>& points,
@@ -26,7 +27,7 @@ DistributionCloud make_distribution_cloud(const std::vector<Eigen::Vector3f>& po
   all.build(points);
   DistributionCloud cloud(kCellVoxels * config.voxel_m);
   cloud.grid.build(density_filter(all, config.density_radius_m, config.density_percentile));
-  cloud.covariances = point_covariances(cloud.grid, config.neighbours, 4.0 * config.density_radius_m);
+  cloud.covariances = point_covariances(cloud.grid, config.neighbours, kNeighbourRadii * config.density_radius_m);
   return cloud;
 }
 

@@ -34,15 +34,17 @@ struct CoarseResult {
   double mean_weight = 0;  ///< mean w_m over the source: 1 is a perfect fit
 };
 
-/// Sums of eq. 7 and 8 at `T`, with `noise_m` added to the covariances. The error is q − T p and its perturbation is a
-/// left one, exp(δ) T, in the target's frame, which is the sensor frame of the sweep before: lever arms stay short.
+/// Sums over the pairs. The error is q − T p and its perturbation is a left one, exp(δ) T, in the target's frame, which
+/// is the sensor frame of the sweep before: lever arms stay short.
 struct CoarseSums {
-  Matrix6d H = Matrix6d::Zero();
-  Vector6d b = Vector6d::Zero();
-  double weight = 0;
+  Matrix6d H = Matrix6d::Zero();  ///< eq. 7
+  Vector6d b = Vector6d::Zero();  ///< eq. 8
+  double weight = 0;              ///< Σ w_m
   std::size_t pairs = 0;
 };
-/// `matches`: partner of each source point, kNoPoint where there is none; read as a guess, then written.
+
+/// The sums at `T_target_source`, with the noise `noise_m` (standard deviation) added to the covariances. `matches`:
+/// partner of each source point, kNoPoint where there is none; read as a guess, then written.
 CoarseSums linearise(const DistributionCloud& source, const DistributionCloud& target, const SE3& T_target_source,
                      double noise_m, const CoarseRegistrationConfig& config, std::vector<std::uint32_t>& matches);
 

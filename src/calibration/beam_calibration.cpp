@@ -115,9 +115,15 @@ void BeamCalibration::apply_differences() {
   }
 }
 
-std::vector<BeamCorrection> BeamCalibration::corrections(double offset_rad) const {
+std::vector<Beam> BeamCalibration::in_use() const {
   std::vector<Beam> beams = in_order_;
-  std::copy_if(known_.begin(), known_.end(), std::back_inserter(beams), [&](Beam b) { return unseen(b); });
+  std::copy_if(known_.begin(), known_.end(), std::back_inserter(beams),
+               [&](Beam b) { return !(beams_[b].points > 0.0); });
+  return beams;
+}
+
+std::vector<BeamCorrection> BeamCalibration::corrections(double offset_rad) const {
+  std::vector<Beam> beams = in_use();
   sort_by_elevation(beams);
   std::vector<BeamCorrection> all;
   for (const Beam b : beams) {
@@ -138,17 +144,12 @@ void BeamCalibration::begin_with(const std::vector<BeamCorrection>& known, doubl
 }
 
 Eigen::Vector2d BeamCalibration::rms_rad() const {
+  const std::vector<Beam> beams = in_use();
   Eigen::Vector2d squares = Eigen::Vector2d::Zero();
-  double count = 0.0;
-  const auto add = [&](Beam b) {
+  for (const Beam b : beams) {
     squares += angles_.of(b).cast<double>().cwiseAbs2();
-    count += 1.0;
-  };
-  std::for_each(in_order_.begin(), in_order_.end(), add);
-  for (const Beam b : known_) {
-    if (unseen(b)) add(b);
   }
-  return (squares / std::max(1.0, count)).cwiseSqrt();
+  return (squares / std::max(1.0, static_cast<double>(beams.size()))).cwiseSqrt();
 }
 
 }  // namespace rilo

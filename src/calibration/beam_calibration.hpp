@@ -61,8 +61,8 @@ class BeamCalibration {
   void find_steps();
   void apply_differences();
   void sort_by_elevation(std::vector<Beam>& beams) const;
-  /// No sweep has shown it.
-  bool unseen(Beam beam) const { return !(beams_[beam].points > 0.0); }
+  /// The beams that sweeps have shown, and those that were begun with and none has.
+  std::vector<Beam> in_use() const;
 
   BeamCalibrationConfig config_;
   BeamAngles angles_;

@@ -72,7 +72,6 @@ class LocalMap {
   /// The finest voxel that a look-up at `p` looks into.
   VoxelIndex finest_voxel(const Eigen::Vector3d& p) const { return grids_[finest_].index_of(p); }
 
-  bool empty() const { return grids_.back().size() == 0; }
   /// Voxels of all levels.
   std::size_t size() const;
 

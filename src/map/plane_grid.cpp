@@ -1,6 +1,5 @@
 #include "map/plane_grid.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>

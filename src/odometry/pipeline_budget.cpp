@@ -1,5 +1,4 @@
 // What the pipeline does to end in time (docs/method.md, time budget).
-#include <algorithm>
 #include <functional>
 
 #include "cloud/thinning.hpp"

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "odometry/health.hpp"
 #include "odometry/optimum.hpp"
 #include "odometry/pose_noise.hpp"
 #include "odometry/running_mean.hpp"
-#include "odometry/sweep_map.hpp"
 
 namespace rilo {
 

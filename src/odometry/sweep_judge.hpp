@@ -3,10 +3,10 @@
 
 #include <cstddef>
 
-#include "odometry/health.hpp"
 #include "odometry/motion_tracker.hpp"
 #include "odometry/registration.hpp"
 #include "rilo/odometry/odometry_config.hpp"
+#include "rilo/odometry/sweep_result.hpp"
 
 namespace rilo {
 

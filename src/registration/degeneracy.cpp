@@ -1,6 +1,5 @@
 #include "registration/degeneracy.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>

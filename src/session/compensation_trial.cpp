@@ -2,7 +2,6 @@
 
 #include <bitset>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "cloud/azimuth_sector.hpp"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "registration/covariances.hpp"
+#include "registration/deadline.hpp"
 #include "registration/degeneracy.hpp"
 #include "registration/density_filter.hpp"
 #include "registration/map_score.hpp"

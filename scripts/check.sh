@@ -8,7 +8,7 @@
 #
 #   test            all tests, optimised build
 #   lint            clang-format, clang-tidy, includes, shellcheck, links, paths
-#   separate        each source of the libraries and the command compiled by itself, not as a unity build
+#   separate        each source of the libraries, the command and the tests compiled by itself, not as a unity build
 #   docs            the site of documents and reference; wrong names and links are errors
 #   sanitize        all tests under AddressSanitizer and UBSan
 #   sanitize-short  the same for the tests of the libraries, without long drives and without those that run the command

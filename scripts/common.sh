@@ -26,11 +26,10 @@ print_sources0() {
   find src include apps tests examples benchmarks fuzz python ros1 ros2 -type f \( -name '*.cpp' -o -name '*.hpp' \) -print0 | sort -z
 }
 
-# build_preset PRESET [cmake --build arguments]: configures and builds, quietly when nothing is wrong. With RILO_UNITY=ON
-# sixteen sources are compiled together: half the time for the whole, much more for the next change.
+# build_preset PRESET [cmake --build arguments]: configures and builds, quietly when nothing is wrong.
 build_preset() {
   local preset="$1"
   shift
-  cmake --preset "$preset" --log-level=WARNING ${RILO_UNITY:+"-DCMAKE_UNITY_BUILD=$RILO_UNITY"} >/dev/null
+  cmake --preset "$preset" --log-level=WARNING >/dev/null
   cmake --build --preset "$preset" --parallel "$JOBS" "$@"
 }

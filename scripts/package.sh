@@ -16,7 +16,7 @@ esac
 
 scripts/setup.sh --package
 cmake -S . -B build/package -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/usr -DBUILD_SHARED_LIBS=ON \
-  -DRILO_BUILD_TESTS=OFF ${RILO_UNITY:+"-DCMAKE_UNITY_BUILD=$RILO_UNITY"} --log-level=WARNING
+  -DRILO_BUILD_TESTS=OFF -DCMAKE_UNITY_BUILD=ON --log-level=WARNING
 cmake --build build/package --parallel "$JOBS"
 rm -f build/package/*.deb
 (cd build/package && cpack -G DEB)

@@ -11,7 +11,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "session/steady_clock.hpp"
+#include "io/steady_clock.hpp"
 
 namespace rilo::bench {
 namespace {

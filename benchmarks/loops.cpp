@@ -13,10 +13,10 @@
 #include <CLI/CLI.hpp>
 
 #include "cloud/loop_record.hpp"
+#include "io/steady_clock.hpp"
 #include "loop_schedule.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "rilo/odometry/odometry.hpp"
-#include "session/steady_clock.hpp"
 
 namespace rilo::bench {
 namespace {

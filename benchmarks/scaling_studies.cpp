@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "io/steady_clock.hpp"
 #include "measured_row.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
-#include "session/steady_clock.hpp"
 #include "simulation/drive_path.hpp"
 
 namespace rilo::bench {

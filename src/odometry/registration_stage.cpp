@@ -78,10 +78,7 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
       PathSearch(parts, search).improve(predicted, found);
     }
   }
-  if (parts.tracker.lost()) {
-    return held(parts, search, found);
-  }
-  return found;
+  return parts.tracker.lost() ? held(parts, search, found) : std::move(found);
 }
 
 }  // namespace rilo

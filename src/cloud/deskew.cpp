@@ -37,7 +37,8 @@ TimeSpan span_of(const TimedCloud& cloud) {
   return cloud.timed() ? extremes_of(cloud.offsets_s) : TimeSpan{0.0F, 0.0F};
 }
 
-SweepMotion::SweepMotion(const BodyMotion& motion, const TimeSpan& of) : begin_s_(of.begin_s) {
+SweepMotion::SweepMotion(const BodyMotion& motion, const TimeSpan& of, const Eigen::Matrix3d& R_out_sensor)
+    : begin_s_(of.begin_s) {
   const float begin_s = of.begin_s;
   const float span = of.length_s();
   last_ = span > 0.0F ? kKnots - 1 : 0;
@@ -46,10 +47,13 @@ SweepMotion::SweepMotion(const BodyMotion& motion, const TimeSpan& of) : begin_s
   for (int i = 0; i <= last_; ++i) {
     const float offset = last_ == 0 ? begin_s : begin_s + span * static_cast<float>(i) / static_cast<float>(last_);
     const auto s = static_cast<double>(offset);
-    const SE3 T = se3_exp(s * motion.twist + 0.5 * s * s * motion.acceleration);
     const Vector6d twist = motion.twist + s * motion.acceleration;
-    knots_.push_back({T.linear().cast<float>(), T.translation().cast<float>(), twist.head<3>().cast<float>(),
-                      twist.tail<3>().cast<float>(), offset});
+    Eigen::Matrix4d generator = Eigen::Matrix4d::Zero();
+    generator.topLeftCorner<3, 3>() = hat(twist.head<3>());
+    generator.topRightCorner<3, 1>() = twist.tail<3>();
+    SE3 T = se3_exp(s * motion.twist + 0.5 * s * s * motion.acceleration);
+    T = R_out_sensor * T;
+    knots_.push_back({T.matrix().cast<float>(), (T.matrix() * generator).cast<float>(), offset});
   }
 }
 

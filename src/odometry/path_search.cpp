@@ -84,9 +84,10 @@ std::vector<MotionState> PathSearch::places_of(const MotionState& predicted) con
 /// The sweep as found beside the last one that was accepted.
 SweepOverlap PathSearch::overlap_with_last(const MotionState& predicted, const Registration& found) const {
   const LocalMap planes = search_.map_of(parts_.prepared.map_cloud, found.icp.state);
-  return {{parts_.initial_pose.last_source(), parts_.tracker.trusted(), parts_.map.map()},
-          {parts_.prepared.source, found.icp.state, planes},
-          predicted.twist_in_odom()};
+  SweepOverlap overlap({parts_.initial_pose.last_source(), parts_.tracker.trusted(), parts_.map.map()},
+                       {parts_.prepared.source, found.icp.state, planes});
+  overlap.look_along(predicted.twist_in_odom());
+  return overlap;
 }
 
 }  // namespace rilo

@@ -101,15 +101,12 @@ Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior&
   return found;
 }
 
-/// The sweep as found beside the first one; `planes`: the map of it alone.
-SweepOverlap SecondSweep::overlap_with_first(const Registration& found, const LocalMap& planes,
-                                             const Eigen::Vector3d& direction) const {
+/// The sweep as found beside the first one.
+SweepOverlap SecondSweep::overlap_with_first(const Registration& found) const {
+  const LocalMap planes = search_.map_of(parts_.prepared.map_cloud, found.icp.state);
   const SE3& origin = parts_.tracker.trusted().T_odom_lidar;
-  Vector6d motion = Vector6d::Zero();
-  motion.tail<3>() = direction;
   return {{parts_.map.first_cloud(), {origin, found.first->twist}, or_present(found.first->map)},
-          {parts_.prepared.source, found.icp.state, planes},
-          motion};
+          {parts_.prepared.source, found.icp.state, planes}};
 }
 
 /// The sensor there instead, with the velocity that this implies.
@@ -136,9 +133,11 @@ std::vector<MotionState> SecondSweep::places_along(const Registration& found, co
 
 /// Compares a place with those along a direction from it; returns the sweep registered where it has more in common with
 /// the first one, if there is such a place. `ambiguous` becomes true where it may as well lie elsewhere.
-std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direction, const LocalMap& planes,
+std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direction, SweepOverlap& overlap,
                                                     Registration& found, bool& ambiguous) const {
-  const SweepOverlap overlap = overlap_with_first(found, planes, direction);
+  Vector6d motion = Vector6d::Zero();
+  motion.tail<3>() = direction;
+  overlap.look_along(motion);
   const auto matches_of = [&](const Registration& registration) {
     return overlap.matches(registration.icp.state, overlap.before({registration.first->twist}));
   };
@@ -146,14 +145,11 @@ std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direc
     return overlap.matches(place, overlap.before({place.twist}));
   };
   const auto late = [&] { return parts_.deadline.passed_after(parts_.first_map_ms); };
-  const auto overlaps_at = [&](const std::vector<MotionState>& places) {
-    return overlaps_of(
-        places.size(), [&](std::size_t i) { return mean_match(matches_at(places[i])); }, late);
-  };
   const std::vector<double> of_found = matches_of(found);
   const double here = mean_match(of_found);
   const std::vector<MotionState> places = places_along(found, direction);
-  const std::vector<double> overlaps = overlaps_at(places);
+  const std::vector<double> overlaps = overlaps_along(
+      places.size(), [&](std::size_t i) { return mean_match(matches_at(places[i])); }, late);
   found.cut = late();  // then some places were not looked at
   if (found.cut || places.empty()) {
     return std::nullopt;
@@ -169,7 +165,8 @@ std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direc
   }
   const Eigen::Vector3d half_step = 0.5 * SweepOverlap::kSigmaM * direction;
   const std::vector<MotionState> around{places[most], moved(places[most], -half_step), moved(places[most], half_step)};
-  const MotionState& there = around[most_of(overlaps_at(around))];
+  const MotionState& there = around[most_of(overlaps_of(
+      around.size(), [&](std::size_t i) { return mean_match(matches_at(around[i])); }, late))];
   Registration other = in_rounds(there, parts_.tracker.prior(there), 1);
   other.starts = ++found.starts;
   return mean_match(matches_of(other)) > here ? std::optional(std::move(other)) : std::nullopt;
@@ -184,11 +181,11 @@ void SecondSweep::move_to_most_overlap(Registration& found) const {
   const Eigen::Matrix3d information = found.icp.lidar_information.bottomRightCorner<3, 3>();
   const Eigen::Matrix3d weakest_first = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvectors();
   for (int look = 0; look < kLooks; ++look) {
-    const LocalMap planes = search_.map_of(parts_.prepared.map_cloud, found.icp.state);
+    SweepOverlap overlap = overlap_with_first(found);
     std::optional<Registration> other;
     bool ambiguous = false;
     for (Eigen::Index i = 0; i < kDirections && !other && !found.cut; ++i) {
-      other = more_along(weakest_first.col(i), planes, found, ambiguous);
+      other = more_along(weakest_first.col(i), overlap, found, ambiguous);
     }
     if (!other) {
       // Where time ran out, the doubt from before stays.

@@ -20,11 +20,10 @@ class SecondSweep {
  private:
   bool too_late_for_two_rounds() const;
   Registration in_rounds(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
-  SweepOverlap overlap_with_first(const Registration& found, const LocalMap& planes,
-                                  const Eigen::Vector3d& direction) const;
+  SweepOverlap overlap_with_first(const Registration& found) const;
   MotionState moved(const MotionState& state, const Eigen::Vector3d& by_m) const;
   std::vector<MotionState> places_along(const Registration& found, const Eigen::Vector3d& direction) const;
-  std::optional<Registration> more_along(const Eigen::Vector3d& direction, const LocalMap& planes, Registration& found,
+  std::optional<Registration> more_along(const Eigen::Vector3d& direction, SweepOverlap& overlap, Registration& found,
                                          bool& ambiguous) const;
   void move_to_most_overlap(Registration& found) const;
   std::optional<LocalMap> of_first_sweep(const TimedCloud& first, const Vector6d& twist) const;

@@ -17,53 +17,80 @@ constexpr double kPlaceM = 1.0;            // edge of a place
 constexpr std::size_t kMostPlaces = 1000;  // enough to tell shares a tenth apart
 constexpr double kTellsApart = 0.3;        // least cosine between a normal and the direction of a motion that it shows
 constexpr double kReachSigmas = 3.0;
-constexpr double kCellReaches = 2.0;  // then what lies within reach of a point lies in eight cells
-constexpr double kSigmas = 3.0;       // of the difference of two overlaps, if it is to be none of chance
+constexpr std::size_t kLookedBeside = 4;  // places of a row, at both sides
+constexpr double kCellReaches = 2.0;      // then what lies within reach of a point lies in eight cells
+constexpr double kSigmas = 3.0;           // of the difference of two overlaps, if it is to be none of chance
+// What speaks for a place must be so many times what speaks for the other: places that move together, as cars of one
+// pace do, are not independent.
+constexpr double kTimes = 2.0;
 
-/// One point a voxel, of surfaces that show the motion or of none.
-TimedCloud telling(const SweepOverlap::Seen& seen, const Vector6d& motion, double voxel_m) {
+}  // namespace
+
+SweepOverlap::Surfaces SweepOverlap::surfaces_of(const Seen& seen, double voxel_m) {
   std::vector<Eigen::Vector3f> points;
   deskew(seen.cloud, seen.state.motion(), points);
   VoxelSampler sampler;
   const std::vector<std::uint32_t>& sampled = sampler.sample(points, voxel_m);
-  const auto point_at = [&](std::size_t k) -> Eigen::Vector3d {
-    return seen.state.T_odom_lidar * points[sampled[k]].cast<double>();
+  const SE3& T = seen.state.T_odom_lidar;
+  const auto point_at = [&](std::size_t k) -> Eigen::Vector3d { return T * points[sampled[k]].cast<double>(); };
+  struct Spot {
+    Eigen::Vector3d from_sensor;
+    Eigen::Vector3d normal;
+    bool of_surface = false;
   };
-  const auto way_of = [&](const Eigen::Vector3d& place) -> Eigen::Vector3d {
-    return motion.tail<3>() + motion.head<3>().cross(place - seen.state.T_odom_lidar.translation());
-  };
-  std::vector<char> tells(sampled.size(), 0);
+  std::vector<Spot> spots(sampled.size());
   const auto look_at = [&](std::size_t k, const Eigen::Vector3d& place, const PlaneSpot& spot) {
-    const Eigen::Vector3d way = way_of(place);
-    const bool along = !spot.scatter && std::abs(spot.grid->plane_at(spot).normal.dot(way)) < kTellsApart * way.norm();
-    tells[k] = along ? 0 : 1;
+    const Eigen::Vector3d normal = spot.scatter ? Eigen::Vector3d::Zero() : spot.grid->plane_at(spot).normal;
+    spots[k] = {place - T.translation(), normal, true};
   };
   for_fixed_chunks(sampled.size(), [&](std::size_t, std::size_t first, std::size_t last) {
     seen.planes.visit<LocalMap::Wanted::kPlanesAndScatter>(first, last, point_at, look_at);
   });
-  TimedCloud kept;
+  Surfaces surfaces;
   for (std::size_t k = 0; k < sampled.size(); ++k) {
-    if (tells[k] == 0) {
+    if (!spots[k].of_surface) {
       continue;
     }
-    kept.points.push_back(seen.cloud.points[sampled[k]]);
+    surfaces.cloud.points.push_back(seen.cloud.points[sampled[k]]);
     if (seen.cloud.timed()) {
-      kept.offsets_s.push_back(seen.cloud.offsets_s[sampled[k]]);
+      surfaces.cloud.offsets_s.push_back(seen.cloud.offsets_s[sampled[k]]);
+    }
+    surfaces.from_sensor.push_back(spots[k].from_sensor);
+    surfaces.normals.push_back(spots[k].normal);
+  }
+  return surfaces;
+}
+
+/// Of surfaces that show the motion or of none.
+TimedCloud SweepOverlap::telling(const Surfaces& surfaces, const Vector6d& motion) {
+  TimedCloud kept;
+  for (std::size_t k = 0; k < surfaces.cloud.size(); ++k) {
+    const Eigen::Vector3d way = motion.tail<3>() + motion.head<3>().cross(surfaces.from_sensor[k]);
+    const Eigen::Vector3d& normal = surfaces.normals[k];
+    if (!normal.isZero() && std::abs(normal.dot(way)) < kTellsApart * way.norm()) {
+      continue;
+    }
+    kept.points.push_back(surfaces.cloud.points[k]);
+    if (surfaces.cloud.timed()) {
+      kept.offsets_s.push_back(surfaces.cloud.offsets_s[k]);
     }
   }
   return kept;
 }
-}  // namespace
 
-SweepOverlap::SweepOverlap(const Seen& before, const Seen& sweep, const Vector6d& motion)
-    : T_odom_before_(before.state.T_odom_lidar) {
+SweepOverlap::SweepOverlap(const Seen& before, const Seen& sweep) : T_odom_before_(before.state.T_odom_lidar) {
   for_each_index(2, [&](std::size_t i) {
     if (i == 0) {
-      before_ = telling(before, motion, kSigmaM);
+      seen_before_ = surfaces_of(before, kSigmaM);
     } else {
-      places_ = telling(sweep, motion, kPlaceM);
+      seen_ = surfaces_of(sweep, kPlaceM);
     }
   });
+}
+
+void SweepOverlap::look_along(const Vector6d& motion) {
+  before_ = telling(seen_before_, motion);
+  places_ = telling(seen_, motion);
   if (places_.size() > kMostPlaces) {
     places_ = thinned(places_, static_cast<double>(kMostPlaces) / static_cast<double>(places_.size()));
   }
@@ -110,6 +137,38 @@ std::vector<double> overlaps_of(std::size_t count, const std::function<double(st
   return overlaps;
 }
 
+std::vector<double> overlaps_along(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
+                                   const std::function<bool()>& late) {
+  const std::vector<double> of_seconds =
+      overlaps_of((count + 1) / 2, [&](std::size_t i) { return overlap_at(2 * i); }, late);
+  std::vector<std::size_t> seconds(of_seconds.size());
+  std::iota(seconds.begin(), seconds.end(), std::size_t{0});
+  std::stable_sort(seconds.begin(), seconds.end(),
+                   [&](std::size_t a, std::size_t b) { return of_seconds[a] > of_seconds[b]; });
+  std::vector<double> overlaps(count, 0.0);
+  std::vector<char> wanted(count, 0);
+  for (std::size_t rank = 0; rank < seconds.size(); ++rank) {
+    const std::size_t place = 2 * seconds[rank];
+    overlaps[place] = of_seconds[seconds[rank]];
+    if (rank < kLookedBeside) {
+      wanted[place == 0 ? 0 : place - 1] = 1;
+      wanted[std::min(place + 1, count - 1)] = 1;
+    }
+  }
+  std::vector<std::size_t> beside;
+  for (std::size_t place = 1; place < count; place += 2) {
+    if (wanted[place] != 0) {
+      beside.push_back(place);
+    }
+  }
+  const std::vector<double> of_beside = overlaps_of(
+      beside.size(), [&](std::size_t i) { return overlap_at(beside[i]); }, late);
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    overlaps[beside[i]] = of_beside[i];
+  }
+  return overlaps;
+}
+
 std::size_t most_of(const std::vector<double>& overlaps) {
   return static_cast<std::size_t>(std::max_element(overlaps.begin(), overlaps.end()) - overlaps.begin());
 }
@@ -126,14 +185,15 @@ std::optional<std::size_t> most_of(const std::vector<double>& overlaps,
 }
 
 bool clearly_more(std::span<const double> most, std::span<const double> others) {
-  double sum = 0.0;
+  double more = 0.0;
+  double less = 0.0;
   double squares = 0.0;
   for (std::size_t i = 0; i < most.size(); ++i) {
     const double difference = most[i] - others[i];
-    sum += difference;
+    (difference > 0.0 ? more : less) += std::abs(difference);
     squares += difference * difference;
   }
-  return sum > kSigmas * std::sqrt(squares);
+  return more - less > kSigmas * std::sqrt(squares) && more > kTimes * less;
 }
 
 }  // namespace rilo

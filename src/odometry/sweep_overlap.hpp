@@ -37,9 +37,11 @@ class SweepOverlap {
     const LocalMap& planes;  ///< in that state
   };
 
-  /// `motion`: a twist of the sensor, axes of the odometry frame, of any length. Planes that it moves along themselves
-  /// look alike wherever they are moved by it: their points are left out.
-  SweepOverlap(const Seen& before, const Seen& sweep, const Vector6d& motion);
+  SweepOverlap(const Seen& before, const Seen& sweep);
+
+  /// From now on only what shows `motion` is compared, a twist of the sensor, axes of the odometry frame, of any
+  /// length. Planes that it moves along themselves look alike wherever they are moved by it: their points are left out.
+  void look_along(const Vector6d& motion);
 
   /// The sweep before, compensated for its motion.
   PointGrid before(const BodyMotion& motion) const;
@@ -51,7 +53,18 @@ class SweepOverlap {
   double at(const MotionState& state, const PointGrid& before) const { return mean_match(matches(state, before)); }
 
  private:
+  /// One point a voxel, of those that lie on a surface.
+  struct Surfaces {
+    TimedCloud cloud;
+    std::vector<Eigen::Vector3d> from_sensor;  // axes of the odometry frame
+    std::vector<Eigen::Vector3d> normals;      // 0: of no plane
+  };
+  static Surfaces surfaces_of(const Seen& seen, double voxel_m);
+  static TimedCloud telling(const Surfaces& surfaces, const Vector6d& motion);
+
   SE3 T_odom_before_;
+  Surfaces seen_before_;
+  Surfaces seen_;
   TimedCloud before_;
   TimedCloud places_;
 };
@@ -59,6 +72,11 @@ class SweepOverlap {
 /// Overlaps at `count` places, looked at in parallel until it is `late`; 0 for those that were not.
 std::vector<double> overlaps_of(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
                                 const std::function<bool()>& late);
+
+/// The same of places a sigma apart in a row: every second one, between which a match is still 0.6, then those beside
+/// the best of them. 0 for the others.
+std::vector<double> overlaps_along(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
+                                   const std::function<bool()>& late);
 
 /// Index of the most overlap, of the first of equal ones. There must be one.
 std::size_t most_of(const std::vector<double>& overlaps);

@@ -21,6 +21,8 @@ constexpr double kWideStart = 3.0;
 // From this iteration on, which 95 % of the sweeps of a drive do not need, points keep their correspondences: a few
 // that change planes at every step would keep the sweep oscillating.
 constexpr int kFreezeAfter = 16;
+// Of the largest information: below it sums of single precision show nothing.
+constexpr double kRounding = 1e-6;
 
 }  // namespace
 
@@ -59,16 +61,14 @@ bool step(const NormalEquations& sums, const Matrix6d& unconfirmed, const Motion
   result.degeneracy = analyse_degeneracy(result.lidar_information, kUnconfirmedMargin * scale * unconfirmed);
   Matrix12d H = scale * sums.hessian();
   Vector12d b = -scale * sums.gradient();
-  if (config.weak_direction > 0.0) {
-    const Matrix6d select = soft_selection(result.degeneracy, config.weak_direction);
-    Matrix12d W = Matrix12d::Zero();
-    W.topLeftCorner<6, 6>() = select;
-    W.bottomRightCorner<6, 6>() = select;
-    H = (W.transpose() * H * W).eval();
-    // W carries the square root of the share: once for each side of H, twice for b. Once alone would make a faded
-    // direction overshoot by 1 / sqrt(share).
-    b = (W.transpose() * (W.transpose() * b)).eval();
-  }
+  const Matrix6d select = soft_selection(result.degeneracy, std::max(config.weak_direction, kRounding));
+  Matrix12d W = Matrix12d::Zero();
+  W.topLeftCorner<6, 6>() = select;
+  W.bottomRightCorner<6, 6>() = select;
+  H = (W.transpose() * H * W).eval();
+  // W carries the square root of the share: once for each side of H, twice for b. Once alone would make a faded
+  // direction overshoot by 1 / sqrt(share).
+  b = (W.transpose() * (W.transpose() * b)).eval();
   result.sweep_information = H;
   H += prior.information;
   b -= prior.information * prior_error(prior, result.state);

@@ -6,19 +6,6 @@
 
 namespace rilo {
 
-namespace {
-Matrix6d unpacked(const PackedSymmetric6& h) {
-  Matrix6d lower = Matrix6d::Zero();
-  lower.col(0) = h.segment<6>(0);
-  lower.col(1) = h.segment<6>(6);
-  lower.col(2).tail<4>() = h.segment<4>(12);
-  lower.col(3).tail<4>() = h.segment<4>(16);
-  lower.col(4).tail<2>() = h.segment<2>(20);
-  lower.col(5).tail<2>() = h.segment<2>(22);
-  return lower.selfadjointView<Eigen::Lower>();
-}
-}  // namespace
-
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   H0 += other.H0;
   H1 += other.H1;
@@ -31,12 +18,13 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   return *this;
 }
 
-Matrix6d NormalEquations::pose_hessian() const { return unpacked(H0); }
+Matrix6d NormalEquations::pose_hessian() const { return H0.selfadjointView<Eigen::Lower>(); }
 
 Matrix12d NormalEquations::hessian() const {
   Matrix12d H;
-  const Matrix6d cross = unpacked(H1);
-  H << unpacked(H0), cross, cross, unpacked(H2);
+  const Matrix6d cross = H1.selfadjointView<Eigen::Lower>();
+  const Matrix6d velocity = H2.selfadjointView<Eigen::Lower>();
+  H << pose_hessian(), cross, cross, velocity;
   return H;
 }
 
@@ -51,40 +39,54 @@ void ResidualBlock::flush() {
   used_ = 0;
 }
 
+namespace {
+using Lanes = float __attribute__((vector_size(8 * sizeof(float))));
+
+/// The first six lanes onto doubles.
+inline void add_lanes(const Lanes& lanes, double* to) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    to[i] += static_cast<double>(lanes[i]);
+  }
+}
+}  // namespace
+
 // Each element is summed over the rows in their order, whatever the width of a register.
 RILO_WIDE void ResidualBlock::sum(const Row* rows, std::size_t n, bool velocity, NormalEquations& sums) {
-  using Lanes = double __attribute__((vector_size(4 * sizeof(double))));
-  constexpr Eigen::Index kLanes = sizeof(Lanes) / sizeof(double);
-  static_assert(PackedSymmetric6::SizeAtCompileTime % kLanes == 0);
-  for (Eigen::Index first = 0; first < PackedSymmetric6::SizeAtCompileTime; first += kLanes) {
-    Lanes h0;
-    std::memcpy(&h0, &sums.H0[first], sizeof(Lanes));
-    for (std::size_t k = 0; k < n; ++k) {
-      Lanes h;
-      std::memcpy(&h, &rows[k].h[first], sizeof(Lanes));
-      h0 += h;
-    }
-    std::memcpy(&sums.H0[first], &h0, sizeof(Lanes));
-    if (!velocity) {
-      continue;
-    }
-    Lanes h1;
-    Lanes h2;
-    std::memcpy(&h1, &sums.H1[first], sizeof(Lanes));
-    std::memcpy(&h2, &sums.H2[first], sizeof(Lanes));
-    for (std::size_t k = 0; k < n; ++k) {
-      const double s = rows[k].s;
-      Lanes h;
-      std::memcpy(&h, &rows[k].h[first], sizeof(Lanes));
-      h1 += s * h;
-      h2 += s * s * h;
-    }
-    std::memcpy(&sums.H1[first], &h1, sizeof(Lanes));
-    std::memcpy(&sums.H2[first], &h2, sizeof(Lanes));
-  }
+  std::array<Lanes, kRows> wJ;
+  std::array<Lanes, kRows> swJ;
+  std::array<Lanes, kRows> sswJ;
+  Lanes b0{};
+  Lanes b1{};
   for (std::size_t k = 0; k < n; ++k) {
-    sums.b0 += rows[k].e * rows[k].wJ;
-    sums.b1 += rows[k].s * rows[k].e * rows[k].wJ;
+    const Row& row = rows[k];
+    Lanes J;
+    std::memcpy(&J, row.J.data(), sizeof(Lanes));
+    wJ[k] = row.w * J;
+    b0 += row.e * wJ[k];
+    if (velocity) {
+      swJ[k] = row.s * wJ[k];
+      sswJ[k] = row.s * swJ[k];
+      b1 += row.e * swJ[k];
+    }
+  }
+  add_lanes(b0, sums.b0.data());
+  add_lanes(b1, sums.b1.data());
+  for (std::size_t column = 0; column < 6; ++column) {
+    const auto c = static_cast<Eigen::Index>(column);
+    Lanes h0{};
+    Lanes h1{};
+    Lanes h2{};
+    for (std::size_t k = 0; k < n; ++k) {
+      const float J = rows[k].J[column];
+      h0 += J * wJ[k];
+      if (velocity) {
+        h1 += J * swJ[k];
+        h2 += J * sswJ[k];
+      }
+    }
+    add_lanes(h0, sums.H0.col(c).data());
+    add_lanes(h1, sums.H1.col(c).data());
+    add_lanes(h2, sums.H2.col(c).data());
   }
 }
 

@@ -16,9 +16,9 @@ constexpr std::size_t kPrefetchAhead = 8;
 
 /// Derivative of the distance of a point from a plane with respect to the pose: [(q × n)ᵀ nᵀ], `q` from the sensor to
 /// the point.
-inline Vector6d pose_jacobian(const Eigen::Vector3d& q, const Eigen::Vector3d& normal) {
+Vector6d pose_jacobian(const Eigen::Vector3f& q, const Eigen::Vector3f& normal) {
   Vector6d J;
-  J << q.cross(normal), normal;
+  J << q.cross(normal).cast<double>(), normal.cast<double>();
   return J;
 }
 
@@ -37,33 +37,30 @@ class Equations {
         block_(sums, refine_),
         source_(source),
         state_(state),
-        origin_(state.T_odom_lidar.translation()),
         adaptive_(config.adaptive),
         sigma2_(sigma_th_m * sigma_th_m),
         gate2_(std::pow(config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m, 2)),
         scatter_noise2_(config.scatter_noise_m * config.scatter_noise_m) {}
 
-  /// Distance of the point `i` of the source from a plane; returns its weight β_k.
-  double add(std::size_t i, const Eigen::Vector3d& world, const Eigen::Vector3d& normal, double distance_m,
-             double weight) {
+  /// Distance of the point `i` of the source, at `q` from the sensor, from a plane; returns its weight β_k.
+  double add(std::size_t i, const Eigen::Vector3f& q, const Eigen::Vector3f& normal, double distance_m, double weight) {
     const double beta = weight * weight_of(distance_m, 1.0);
     if (beta > 0.0) {
-      block_.add(pose_jacobian(world - origin_, normal), distance_m, beta, lever_s(i));
+      block_.add(q, normal, distance_m, beta, lever_s(i));
     }
     return beta;
   }
 
-  /// Points that are not a plane: their Gaussian, with the noise of the point.
-  void add(std::size_t i, const Eigen::Vector3d& world, const MapScatter& scatter) {
+  /// Points that are not a plane: their Gaussian, with the noise of the point, along each of its axes.
+  void add(std::size_t i, const Eigen::Vector3f& q, const Eigen::Vector3d& world, const MapScatter& scatter) {
     const Eigen::Vector3d e = scatter.axes.transpose() * (world - scatter.mean);
-    Eigen::Vector3d beta;
     for (int axis = 0; axis < 3; ++axis) {
       const double share = scatter.bounded[axis] * scatter_noise2_ / (scatter_noise2_ + scatter.variances[axis]);
-      beta[axis] = scatter.weight * weight_of(e[axis], share);
+      const double beta = scatter.weight * weight_of(e[axis], share);
+      if (beta > 0.0) {
+        block_.add(q, scatter.axes.col(axis).cast<float>(), e[axis], beta, lever_s(i));
+      }
     }
-    const Eigen::Matrix3d weighted = scatter.axes * beta.asDiagonal();
-    block_.add(world - origin_, weighted * scatter.axes.transpose(), weighted * e, beta.sum(), beta.dot(e.cwiseAbs2()),
-               static_cast<std::size_t>((beta.array() > 0.0).count()), lever_s(i));
   }
 
   void finish() { block_.flush(); }
@@ -84,7 +81,6 @@ class Equations {
   ResidualBlock block_;
   const TimedCloud& source_;
   const MotionState& state_;
-  Eigen::Vector3d origin_;
   bool adaptive_;
   double sigma2_;
   double gate2_;
@@ -149,38 +145,39 @@ void PlaneMatches::begin(const TimedCloud& source) {
 
 NormalEquations PlaneMatches::linearise(const TimedCloud& source, const LocalMap& map, const MotionState& state,
                                         double sigma_th_m, const AdaptiveIcpConfig& config, std::size_t stride) {
-  const Eigen::Matrix3d R = state.T_odom_lidar.linear();
   const Eigen::Vector3d t = state.T_odom_lidar.translation();
   if (!span_) {
     begin(source);
   }
-  const SweepMotion motion(state.motion(), *span_);
+  const SweepMotion motion(state.motion(), *span_, state.T_odom_lidar.linear());
   const std::size_t count = (source.size() + stride - 1) / stride;
   std::vector<NormalEquations> partial(chunk_count(count));
   std::vector<Matrix6d> unconfirmed(chunk_count(count), Matrix6d::Zero());
   for_fixed_chunks(count, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    std::array<Eigen::Vector3f, kChunkSize> from_sensor;  // axes of the odometry frame
     std::array<Eigen::Vector3d, kChunkSize> world;
     for (std::size_t k = first; k < last; ++k) {
-      world[k - first] = R * motion.compensated(source, k * stride).cast<double>() + t;
+      from_sensor[k - first] = motion.compensated(source, k * stride);
+      world[k - first] = from_sensor[k - first].cast<double>() + t;
     }
     look_up(map, first, {world.data(), last - first}, stride);
     Equations equations(source, state, sigma_th_m, config, partial[chunk]);
     for (std::size_t k = first; k < last; ++k) {
       const std::size_t i = k * stride;
       const Match& match = matches_[i];
+      const Eigen::Vector3f& q = from_sensor[k - first];
       const Eigen::Vector3d& p = world[k - first];
       if (k + kPrefetchAhead < last) {
         prefetch(i + kPrefetchAhead * stride);
       }
       if (match.meets == Meets::kScatter) {
-        equations.add(i, p, spots_[i].grid->scatter_at(spots_[i]));
+        equations.add(i, q, p, spots_[i].grid->scatter_at(spots_[i]));
       } else if (match.meets == Meets::kPlane) {
-        const Eigen::Vector3d normal = match.normal.cast<double>();
-        const double distance_m = normal.dot(p) - match.distance_m;  // (p − q)·n
-        const double beta = equations.add(i, p, normal, distance_m, static_cast<double>(match.weight));
+        const double distance_m = match.normal.cast<double>().dot(p) - match.distance_m;  // (p − q)·n
+        const double beta = equations.add(i, q, match.normal, distance_m, static_cast<double>(match.weight));
         if (k % kSparseStride == 0 && beta > 0.0) {
-          unconfirmed[chunk] += unconfirmed_part(beta, pose_jacobian(p - t, normal),
-                                                 pose_jacobian(p - t, wider_normal(map, i).cast<double>()));
+          unconfirmed[chunk] +=
+              unconfirmed_part(beta, pose_jacobian(q, match.normal), pose_jacobian(q, wider_normal(map, i)));
         }
       }
     }

@@ -40,7 +40,7 @@ double worst_error_m(const TimedCloud& cloud, const BodyMotion& motion) {
   return worst;
 }
 
-TEST(DeskewTest, FastMotionIsWithinATenthOfAMillimetre) {
+TEST(DeskewTest, FastMotionIsWithinAThirdOfAMillimetre) {
   const TimedCloud cloud = sphere(20000, 100.0F, -0.05F, 0.05F);
   std::mt19937 rng(2);
   std::normal_distribution<double> normal;
@@ -48,7 +48,7 @@ TEST(DeskewTest, FastMotionIsWithinATenthOfAMillimetre) {
     Vector6d twist;
     twist << kTurn * Eigen::Vector3d(normal(rng), normal(rng), normal(rng)).normalized(),
         30.0 * Eigen::Vector3d(normal(rng), normal(rng), normal(rng)).normalized();
-    EXPECT_LT(worst_error_m(cloud, {twist}), 1e-4);
+    EXPECT_LT(worst_error_m(cloud, {twist}), 3.3e-4);
   }
 }
 
@@ -64,7 +64,7 @@ TEST(DeskewTest, TurnOnTheSpotAndStraightDrive) {
   const TimedCloud cloud = sphere(5000, 100.0F, 0.0F, 0.1F);
   Vector6d turn = Vector6d::Zero();
   turn[2] = kTurn;
-  EXPECT_LT(worst_error_m(cloud, {turn}), 1e-4);
+  EXPECT_LT(worst_error_m(cloud, {turn}), 3.3e-4);
   Vector6d drive = Vector6d::Zero();
   drive[3] = 30.0;
   EXPECT_LT(worst_error_m(cloud, {drive}), 3e-5);
@@ -82,12 +82,27 @@ TEST(DeskewTest, ReferenceInstantStaysWhereItIs) {
   EXPECT_NEAR(out[0].x(), 4.5F, 0.01F);
 }
 
+TEST(DeskewTest, AlongOtherAxesAboutTheSensor) {
+  const TimedCloud cloud = sphere(500, 50.0F, -0.05F, 0.05F);
+  const BodyMotion motion{(Vector6d() << 0.1, -0.2, 1.0, 10.0, 1.0, 0.0).finished()};
+  const Eigen::Matrix3d R = so3_exp({0.3, -1.0, 2.0});
+  const SweepMotion along_own = SweepMotion::during(cloud, motion);
+  const SweepMotion along_others(motion, span_of(cloud), R);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f expected = R.cast<float>() * along_own.compensated(cloud, i);
+    EXPECT_LT((along_others.compensated(cloud, i) - expected).norm(), 2e-5F);
+  }
+}
+
 TEST(DeskewTest, UntimedCloudIsCopied) {
   TimedCloud cloud = sphere(100, 10.0F, 0.0F, 0.1F);
   cloud.offsets_s.clear();
   std::vector<Eigen::Vector3f> out(7);
   deskew(cloud, {Vector6d::Ones()}, out);
   EXPECT_EQ(out, cloud.points);
+  const Eigen::Matrix3d R = so3_exp({0.3, -1.0, 2.0});
+  const SweepMotion motion({Vector6d::Ones()}, span_of(cloud), R);
+  EXPECT_LT((motion.compensated(cloud, 3) - R.cast<float>() * cloud.points[3]).norm(), 1e-5F);
 }
 
 TEST(DeskewTest, EmptyCloud) {

@@ -2,6 +2,8 @@
 #include "odometry/sweep_overlap.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -54,7 +56,9 @@ LocalMap planes_of(const TimedCloud& cloud, const MotionState& state) {
 
 SweepOverlap overlap_of(const TimedCloud& before, const MotionState& first, const TimedCloud& sweep,
                         const MotionState& found, const Vector6d& motion = kAhead) {
-  return {{before, first, planes_of(before, first)}, {sweep, found, planes_of(sweep, found)}, motion};
+  SweepOverlap overlap({before, first, planes_of(before, first)}, {sweep, found, planes_of(sweep, found)});
+  overlap.look_along(motion);
+  return overlap;
 }
 
 double at(const SweepOverlap& overlap, const MotionState& state, const Vector6d& twist_before = Vector6d::Zero()) {
@@ -101,9 +105,65 @@ TEST(SweepOverlaps, WhatIsClearlyMoreIsSoByThreeStandardDeviations) {
   EXPECT_FALSE(clearly_more(none, none));
 }
 
+// Cars of the sensor's own pace match where it stands, the roadside where it drives: many places on either side are
+// more than three standard deviations, and still no clear answer.
+TEST(SweepOverlaps, WhatIsClearlyMoreHasTwiceAsMuchForIt) {
+  const auto matched = [](std::size_t from, std::size_t to) {
+    std::vector<double> matches(1000, 0.0);
+    std::fill(matches.begin() + static_cast<std::ptrdiff_t>(from), matches.begin() + static_cast<std::ptrdiff_t>(to),
+              1.0);
+    return matches;
+  };
+  EXPECT_FALSE(clearly_more(matched(0, 400), matched(400, 600)));
+  EXPECT_TRUE(clearly_more(matched(0, 401), matched(400, 600)));
+  EXPECT_FALSE(clearly_more(matched(400, 600), matched(0, 401)));
+}
+
 TEST(SweepOverlaps, OfEqualOnesTheFirstIsTheMost) {
   EXPECT_EQ(most_of({0.1, 0.4, 0.2, 0.4}), 1U);
   EXPECT_EQ(most_of({0.0}), 0U);
+}
+
+// Along one direction and then along another it says what one that looked along that direction alone would say.
+TEST(SweepOverlaps, LooksAlongOneDirectionAfterTheOther) {
+  const TimedCloud before = street(0.0);
+  const TimedCloud sweep = street(kOnM);
+  SweepOverlap overlap = overlap_of(before, state_on(0.0), sweep, state_on(kOnM));
+  for (const Vector6d& motion : {kTurning, kAhead}) {
+    overlap.look_along(motion);
+    const SweepOverlap alone = overlap_of(before, state_on(0.0), sweep, state_on(kOnM), motion);
+    EXPECT_EQ(at(overlap, state_on(1.5)), at(alone, state_on(1.5)));
+  }
+}
+
+TEST(SweepOverlaps, InARowTheBestPlaceIsFoundWhereverItLies) {
+  const auto never = [] { return false; };
+  for (std::size_t count = 0; count < 12; ++count) {
+    for (std::size_t best = 0; best < count; ++best) {
+      const auto overlap_at = [&](std::size_t i) {
+        return std::exp(-0.5 * std::pow(static_cast<double>(i) - static_cast<double>(best), 2));
+      };
+      const std::vector<double> overlaps = overlaps_along(count, overlap_at, never);
+      ASSERT_EQ(overlaps.size(), count);
+      EXPECT_EQ(most_of(overlaps), best);
+      EXPECT_EQ(overlaps[best], 1.0);
+    }
+  }
+  EXPECT_TRUE(overlaps_along(
+                  0, [](std::size_t) { return 1.0; }, never)
+                  .empty());
+}
+
+TEST(SweepOverlaps, InARowHalfOfThePlacesAndThoseBesideTheBestAreLookedAt) {
+  std::atomic<int> looks = 0;
+  const auto overlap_at = [&](std::size_t i) {
+    ++looks;
+    return i == 31 ? 1.0 : (i == 30 || i == 32 ? 0.6 : 0.1);
+  };
+  const std::vector<double> overlaps = overlaps_along(60, overlap_at, [] { return false; });
+  EXPECT_EQ(most_of(overlaps), 31U);
+  EXPECT_LE(looks, 30 + 8);
+  EXPECT_EQ(overlaps[41], 0.0) << "not looked at";
 }
 
 /// Half of the points are taken 0.05 s before the pose, half after it.

@@ -156,7 +156,7 @@ TEST_F(ExactRoom, PointsOnOneLineMoveOnlyWhatTheySee) {
     EXPECT_TRUE(result.state.T_odom_lidar.matrix().allFinite());
     EXPECT_TRUE(result.state.twist.allFinite());
     EXPECT_TRUE(result.posterior_information.allFinite());
-    EXPECT_LT(result.degeneracy.relative_eigenvalues[0], 1e-9);
+    EXPECT_LT(result.degeneracy.relative_eigenvalues[0], 1e-7);
     EXPECT_NEAR(result.state.T_odom_lidar.translation().y(), 0.0, 0.02);
     EXPECT_NEAR((result.state.T_odom_lidar * line.points[100].cast<double>()).x(), 6.13, 5e-3);
   }

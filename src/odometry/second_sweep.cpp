@@ -15,8 +15,11 @@ namespace {
 constexpr int kRounds = 4;                 // each compensates the first sweep with the velocity of the one before
 constexpr double kDraftShare = 1.0 / 3.0;  // of the points; with a quarter fewer second sweeps are certain
 constexpr double kMostSpeed = 37.5;        // m/s, 135 km/h: so far other places are looked at
-constexpr int kLooks = 3;                  // the first result may be turned, too
-constexpr Eigen::Index kDirections = 2;    // of translations, in which other places are looked at
+// What moves with the sensor speaks for standing still: rings on the road, raindrops, cars of its own pace.
+constexpr double kTimesMoving = 2.0;
+constexpr double kTimesAtRest = 4.0;
+constexpr int kLooks = 3;                // the first result may be turned, too
+constexpr Eigen::Index kDirections = 2;  // of translations, in which other places are looked at
 }  // namespace
 
 SecondSweep::SecondSweep(const RegistrationParts& parts, const PoseSearch& search)
@@ -131,6 +134,13 @@ std::vector<MotionState> SecondSweep::places_along(const Registration& found, co
   return places;
 }
 
+/// How many times what speaks for another place must speak for this one.
+double SecondSweep::times_asked(const Registration& found) const {
+  const SE3& origin = parts_.tracker.trusted().T_odom_lidar;
+  const double moved_m = (found.icp.state.T_odom_lidar.translation() - origin.translation()).norm();
+  return moved_m < SweepOverlap::kSigmaM ? kTimesAtRest : kTimesMoving;
+}
+
 /// Compares a place with those along a direction from it; returns the sweep registered where it has more in common with
 /// the first one, if there is such a place. `ambiguous` becomes true where it may as well lie elsewhere.
 std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direction, SweepOverlap& overlap,
@@ -158,8 +168,9 @@ std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direc
       most_of(overlaps, [&](std::size_t i) { return elsewhere(places[i].T_odom_lidar, found.icp.state.T_odom_lidar); });
   const std::size_t most = most_of(overlaps);
   const bool more_there = overlaps[most] > here;
+  const bool clear = !rival || clearly_more(of_found, matches_at(places[*rival]), times_asked(found));
   // Where nothing shows the way, this is no evidence against a place.
-  ambiguous |= here > 0.0 && (more_there || (rival && !clearly_more(of_found, matches_at(places[*rival]))));
+  ambiguous |= here > 0.0 && (more_there || !clear);
   if (!more_there) {
     return std::nullopt;
   }

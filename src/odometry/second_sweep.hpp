@@ -22,6 +22,7 @@ class SecondSweep {
   Registration in_rounds(const MotionState& start, const MotionPrior& first_prior, int rounds) const;
   SweepOverlap overlap_with_first(const Registration& found) const;
   MotionState moved(const MotionState& state, const Eigen::Vector3d& by_m) const;
+  double times_asked(const Registration& found) const;
   std::vector<MotionState> places_along(const Registration& found, const Eigen::Vector3d& direction) const;
   std::optional<Registration> more_along(const Eigen::Vector3d& direction, SweepOverlap& overlap, Registration& found,
                                          bool& ambiguous) const;

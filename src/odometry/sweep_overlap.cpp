@@ -20,9 +20,6 @@ constexpr double kReachSigmas = 3.0;
 constexpr std::size_t kLookedBeside = 4;  // places of a row, at both sides
 constexpr double kCellReaches = 2.0;      // then what lies within reach of a point lies in eight cells
 constexpr double kSigmas = 3.0;           // of the difference of two overlaps, if it is to be none of chance
-// What speaks for a place must be so many times what speaks for the other: places that move together, as cars of one
-// pace do, are not independent.
-constexpr double kTimes = 2.0;
 
 }  // namespace
 
@@ -184,7 +181,7 @@ std::optional<std::size_t> most_of(const std::vector<double>& overlaps,
   return most;
 }
 
-bool clearly_more(std::span<const double> most, std::span<const double> others) {
+bool clearly_more(std::span<const double> most, std::span<const double> others, double times) {
   double more = 0.0;
   double less = 0.0;
   double squares = 0.0;
@@ -193,7 +190,7 @@ bool clearly_more(std::span<const double> most, std::span<const double> others) 
     (difference > 0.0 ? more : less) += std::abs(difference);
     squares += difference * difference;
   }
-  return more - less > kSigmas * std::sqrt(squares) && more > kTimes * less;
+  return more - less > kSigmas * std::sqrt(squares) && more > times * less;
 }
 
 }  // namespace rilo

@@ -84,8 +84,9 @@ std::size_t most_of(const std::vector<double>& overlaps);
 std::optional<std::size_t> most_of(const std::vector<double>& overlaps,
                                    const std::function<bool(std::size_t)>& allowed);
 
-/// Whether the matches `most` exceed those of the same places under another motion by three standard deviations of
-/// their difference, were the places independent.
-bool clearly_more(std::span<const double> most, std::span<const double> others);
+/// Whether the matches `most` exceed those of the same places under another motion: by three standard deviations of
+/// their difference, were the places independent, and by more than `times` what the others exceed them by, since places
+/// that move together, as cars of one pace do, are not.
+bool clearly_more(std::span<const double> most, std::span<const double> others, double times = 2.0);
 
 }  // namespace rilo

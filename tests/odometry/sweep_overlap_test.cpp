@@ -117,6 +117,8 @@ TEST(SweepOverlaps, WhatIsClearlyMoreHasTwiceAsMuchForIt) {
   EXPECT_FALSE(clearly_more(matched(0, 400), matched(400, 600)));
   EXPECT_TRUE(clearly_more(matched(0, 401), matched(400, 600)));
   EXPECT_FALSE(clearly_more(matched(400, 600), matched(0, 401)));
+  EXPECT_FALSE(clearly_more(matched(0, 400), matched(400, 500), 4.0));
+  EXPECT_TRUE(clearly_more(matched(0, 402), matched(400, 501), 4.0));
 }
 
 TEST(SweepOverlaps, OfEqualOnesTheFirstIsTheMost) {

@@ -53,8 +53,8 @@ inline void add_lanes(const Lanes& lanes, double* to) {
 // Each element is summed over the rows in their order, whatever the width of a register.
 RILO_WIDE void ResidualBlock::sum(const Row* rows, std::size_t n, bool velocity, NormalEquations& sums) {
   std::array<Lanes, kRows> wJ;
-  std::array<Lanes, kRows> swJ;
-  std::array<Lanes, kRows> sswJ;
+  std::array<Lanes, kRows> by_s;   // w s J
+  std::array<Lanes, kRows> by_s2;  // w s² J
   Lanes b0{};
   Lanes b1{};
   for (std::size_t k = 0; k < n; ++k) {
@@ -64,9 +64,9 @@ RILO_WIDE void ResidualBlock::sum(const Row* rows, std::size_t n, bool velocity,
     wJ[k] = row.w * J;
     b0 += row.e * wJ[k];
     if (velocity) {
-      swJ[k] = row.s * wJ[k];
-      sswJ[k] = row.s * swJ[k];
-      b1 += row.e * swJ[k];
+      by_s[k] = row.s * wJ[k];
+      by_s2[k] = row.s * by_s[k];
+      b1 += row.e * by_s[k];
     }
   }
   add_lanes(b0, sums.b0.data());
@@ -80,8 +80,8 @@ RILO_WIDE void ResidualBlock::sum(const Row* rows, std::size_t n, bool velocity,
       const float J = rows[k].J[column];
       h0 += J * wJ[k];
       if (velocity) {
-        h1 += J * swJ[k];
-        h2 += J * sswJ[k];
+        h1 += J * by_s[k];
+        h2 += J * by_s2[k];
       }
     }
     add_lanes(h0, sums.H0.col(c).data());

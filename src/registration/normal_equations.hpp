@@ -74,8 +74,10 @@ class ResidualBlock {
 
  private:
   struct Row {
-    std::array<float, 8> J;  // two more than there are, so that a vector register holds them
-    float w, e, s;
+    std::array<float, 8> J{};  // two more than there are, so that a vector register holds them
+    float w = 0.0F;
+    float e = 0.0F;
+    float s = 0.0F;
   };
   static constexpr std::size_t kRows = 32;
   static void sum(const Row* rows, std::size_t n, bool velocity, NormalEquations& sums);

@@ -52,12 +52,12 @@ TEST(DeskewTest, FastMotionIsWithinAThirdOfAMillimetre) {
   }
 }
 
-TEST(DeskewTest, AnArmThatJerksTheSensorIsWithinAFifthOfAMillimetre) {
+TEST(DeskewTest, AnArmThatJerksTheSensorIsWithinAQuarterOfAMillimetre) {
   const TimedCloud cloud = sphere(20000, 30.0F, -0.05F, 0.05F);
   BodyMotion motion;
   motion.twist << 1.0, -2.0, 0.5, 1.0, -0.5, 0.3;
   motion.acceleration << 20.0, -40.0, 20.0, 30.0, 10.0, -20.0;
-  EXPECT_LT(worst_error_m(cloud, motion), 2e-4);
+  EXPECT_LT(worst_error_m(cloud, motion), 2.5e-4);
 }
 
 TEST(DeskewTest, TurnOnTheSpotAndStraightDrive) {

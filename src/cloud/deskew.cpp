@@ -51,8 +51,7 @@ SweepMotion::SweepMotion(const BodyMotion& motion, const TimeSpan& of, const Eig
     Eigen::Matrix4d generator = Eigen::Matrix4d::Zero();
     generator.topLeftCorner<3, 3>() = hat(twist.head<3>());
     generator.topRightCorner<3, 1>() = twist.tail<3>();
-    SE3 T = se3_exp(s * motion.twist + 0.5 * s * s * motion.acceleration);
-    T = R_out_sensor * T;
+    const SE3 T = SE3(R_out_sensor) * se3_exp(s * motion.twist + 0.5 * s * s * motion.acceleration);
     knots_.push_back({T.matrix().cast<float>(), (T.matrix() * generator).cast<float>(), offset});
   }
 }

@@ -168,9 +168,11 @@ std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direc
       most_of(overlaps, [&](std::size_t i) { return elsewhere(places[i].T_odom_lidar, found.icp.state.T_odom_lidar); });
   const std::size_t most = most_of(overlaps);
   const bool more_there = overlaps[most] > here;
-  const bool clear = !rival || clearly_more(of_found, matches_at(places[*rival]), times_asked(found));
+  const auto in_doubt = [&](std::size_t other) {
+    return !clearly_more(of_found, matches_at(places[other]), times_asked(found));
+  };
   // Where nothing shows the way, this is no evidence against a place.
-  ambiguous |= here > 0.0 && (more_there || !clear);
+  ambiguous |= here > 0.0 && (more_there || (rival && in_doubt(*rival)));
   if (!more_there) {
     return std::nullopt;
   }

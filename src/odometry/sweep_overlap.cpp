@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <vector>
 
 #include "cloud/fixed_chunks.hpp"
@@ -21,6 +22,13 @@ constexpr std::size_t kLookedBeside = 4;  // places of a row, at both sides
 constexpr double kCellReaches = 2.0;      // then what lies within reach of a point lies in eight cells
 constexpr double kSigmas = 3.0;           // of the difference of two overlaps, if it is to be none of chance
 
+/// Its place and time.
+void append_point(const TimedCloud& from, std::size_t i, TimedCloud& to) {
+  to.points.push_back(from.points[i]);
+  if (from.timed()) {
+    to.offsets_s.push_back(from.offsets_s[i]);
+  }
+}
 }  // namespace
 
 SweepOverlap::Surfaces SweepOverlap::surfaces_of(const Seen& seen, double voxel_m) {
@@ -48,10 +56,7 @@ SweepOverlap::Surfaces SweepOverlap::surfaces_of(const Seen& seen, double voxel_
     if (!spots[k].of_surface) {
       continue;
     }
-    surfaces.cloud.points.push_back(seen.cloud.points[sampled[k]]);
-    if (seen.cloud.timed()) {
-      surfaces.cloud.offsets_s.push_back(seen.cloud.offsets_s[sampled[k]]);
-    }
+    append_point(seen.cloud, sampled[k], surfaces.cloud);
     surfaces.from_sensor.push_back(spots[k].from_sensor);
     surfaces.normals.push_back(spots[k].normal);
   }
@@ -67,10 +72,7 @@ TimedCloud SweepOverlap::telling(const Surfaces& surfaces, const Vector6d& motio
     if (!normal.isZero() && std::abs(normal.dot(way)) < kTellsApart * way.norm()) {
       continue;
     }
-    kept.points.push_back(surfaces.cloud.points[k]);
-    if (surfaces.cloud.timed()) {
-      kept.offsets_s.push_back(surfaces.cloud.offsets_s[k]);
-    }
+    append_point(surfaces.cloud, k, kept);
   }
   return kept;
 }
@@ -136,33 +138,32 @@ std::vector<double> overlaps_of(std::size_t count, const std::function<double(st
 
 std::vector<double> overlaps_along(std::size_t count, const std::function<double(std::size_t)>& overlap_at,
                                    const std::function<bool()>& late) {
-  const std::vector<double> of_seconds =
-      overlaps_of((count + 1) / 2, [&](std::size_t i) { return overlap_at(2 * i); }, late);
-  std::vector<std::size_t> seconds(of_seconds.size());
-  std::iota(seconds.begin(), seconds.end(), std::size_t{0});
-  std::stable_sort(seconds.begin(), seconds.end(),
-                   [&](std::size_t a, std::size_t b) { return of_seconds[a] > of_seconds[b]; });
   std::vector<double> overlaps(count, 0.0);
-  std::vector<char> wanted(count, 0);
-  for (std::size_t rank = 0; rank < seconds.size(); ++rank) {
-    const std::size_t place = 2 * seconds[rank];
-    overlaps[place] = of_seconds[seconds[rank]];
-    if (rank < kLookedBeside) {
-      wanted[place == 0 ? 0 : place - 1] = 1;
-      wanted[std::min(place + 1, count - 1)] = 1;
+  const auto look_at = [&](const std::vector<std::size_t>& places) {
+    const std::vector<double> of_places = overlaps_of(
+        places.size(), [&](std::size_t i) { return overlap_at(places[i]); }, late);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      overlaps[places[i]] = of_places[i];
+    }
+  };
+  std::vector<std::size_t> seconds;
+  for (std::size_t place = 0; place < count; place += 2) {
+    seconds.push_back(place);
+  }
+  look_at(seconds);
+  std::stable_sort(seconds.begin(), seconds.end(),
+                   [&](std::size_t a, std::size_t b) { return overlaps[a] > overlaps[b]; });
+  seconds.resize(std::min(seconds.size(), kLookedBeside));
+  std::set<std::size_t> beside;  // two of the best may share one
+  for (const std::size_t place : seconds) {
+    if (place > 0) {
+      beside.insert(place - 1);
+    }
+    if (place + 1 < count) {
+      beside.insert(place + 1);
     }
   }
-  std::vector<std::size_t> beside;
-  for (std::size_t place = 1; place < count; place += 2) {
-    if (wanted[place] != 0) {
-      beside.push_back(place);
-    }
-  }
-  const std::vector<double> of_beside = overlaps_of(
-      beside.size(), [&](std::size_t i) { return overlap_at(beside[i]); }, late);
-  for (std::size_t i = 0; i < beside.size(); ++i) {
-    overlaps[beside[i]] = of_beside[i];
-  }
+  look_at({beside.begin(), beside.end()});
   return overlaps;
 }
 

@@ -8,6 +8,7 @@
 
 #include "cloud/deskew.hpp"
 #include "cloud/measured_point.hpp"
+#include "cloud/thinning.hpp"
 #include "cloud/timed_cloud.hpp"
 #include "geometry/degrees.hpp"
 #include "session/comparable_sweep.hpp"
@@ -19,13 +20,14 @@ namespace {
 constexpr float kNearestM = 2.0F;    // a vehicle's own roof ends there
 constexpr float kFarthestM = 20.0F;  // beyond, the way of a sweep hardly changes an elevation angle
 constexpr std::size_t kLeastPoints = 1000;
+constexpr std::size_t kMostPoints = 10000;      // enough: chance alone makes them as sharp as 1e-4
 constexpr double kStepRad = 0.02 * kRadPerDeg;  // beams are 0.2° apart and more
 constexpr double kClearly = 1.2;  // times as sharp: raw sweeps 1.5 and more, compensated ones mostly 1.3 and more
 constexpr std::size_t kVotes = 10;
 constexpr std::size_t kNearlyAllVotes = 9;
-constexpr std::size_t kMostLookedAt = 40;  // each takes up to 20 ms
+constexpr std::size_t kMostLookedAt = 40;
 
-/// Measured points within the ranges above; times since the first.
+/// Measured points within the ranges above, not too many; times since the first.
 TimedCloud near_points(const Sweep& sweep) {
   TimedCloud near;
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
@@ -36,6 +38,8 @@ TimedCloud near_points(const Sweep& sweep) {
     near.offsets_s.push_back(sweep.times_s[i]);
   }
   if (near.offsets_s.empty()) return near;
+  if (near.size() > kMostPoints)
+    near = thinned(near, static_cast<double>(kMostPoints) / static_cast<double>(near.size()));
   const float begin_s = span_of(near).begin_s;
   for (float& offset_s : near.offsets_s) offset_s -= begin_s;
   return near;

@@ -22,7 +22,7 @@ constexpr double kRawShare = 0.6;          // better: at least 0.75 of raw sweep
 constexpr double kCompensatedShare = 0.4;  // ... at most 0.38 of compensated ones, but all of KITTI's
 constexpr double kConesShare = 0.5;        // of the compared sweeps: mostly nearly all, or none
 constexpr double kMostLost = 0.1;          // of the compared sweeps
-constexpr std::size_t kMostSweeps = 100;   // one that stands for longer is not compared
+constexpr std::size_t kMostSweeps = 300;   // one that stands for longer is not compared
 constexpr std::size_t kBeginning = 3;      // sweeps of a map that is still built with guesses
 
 bool tracked(const SweepResult& result) { return registered(result) || result.status == OdometryStatus::kRecovered; }

@@ -78,7 +78,7 @@ class InitialPoseStage {
 
   /// Updates the usual score: slowly with a score that raises the alarm. A pose that slides away slowly
   /// must not take the reference along, and a place with less structure must become usual in time. The
-  /// quality_of() within the wide gate of a map's first sweeps is not comparable with later ones: none.
+  /// quality_of() on a map of few sweeps is not comparable with later ones: none.
   void learn(double score, std::optional<double> quality);
 
   /// A map begins with a sweep: its cloud becomes the target, its score the least that is expected.

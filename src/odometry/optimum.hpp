@@ -1,18 +1,15 @@
 // What tells one optimum of a registration from another.
 #pragma once
 
-#include <cstddef>
-
 #include "registration/adaptive_icp.hpp"
+#include "registration/closeness.hpp"
 #include "rilo/geometry/se3.hpp"
 
 namespace rilo {
 
-/// What fits over how far it is off (1/m): score times correspondences per point over their residuals. The
-/// score sees small differences, the correspondences all points. Comparable within the same gate.
-inline double quality_of(const IcpResult& icp, double score, std::size_t points) {
-  const double share = static_cast<double>(icp.inliers) / static_cast<double>(points);
-  return icp.residual_rms_m > 0.0 ? score * share / icp.residual_rms_m : 0.0;
+/// What fits over how far it is off (1/m): score times the share of points close to a plane over their distance.
+inline double quality_of(const Closeness& closeness, double score) {
+  return closeness.rms_m > 0.0 ? score * closeness.share / closeness.rms_m : 0.0;
 }
 
 /// Whether that is less than right sweeps have that fit as those before them did.

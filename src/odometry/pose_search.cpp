@@ -1,6 +1,7 @@
 #include "odometry/pose_search.hpp"
 
 #include "odometry/optimum.hpp"
+#include "registration/closeness.hpp"
 
 namespace rilo {
 
@@ -33,7 +34,10 @@ Registration PoseSearch::from(const MotionState& start) const {
 
 void PoseSearch::rate(Registration& found, const LocalMap& map) const {
   found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, map);
-  found.quality = quality_of(found.icp, found.score, parts_.prepared.source.size());
+  // The threshold grows tenfold when a vehicle moves off: within it residuals would, too.
+  const RegisteredSource sweep{parts_.prepared.source, found.icp.state, parts_.config.threshold.floor_m,
+                               parts_.config.icp, kSparseStride};
+  found.quality = quality_of(closeness(sweep, map), found.score);
 }
 
 LocalMap PoseSearch::map_of(const TimedCloud& cloud, const MotionState& state) const {

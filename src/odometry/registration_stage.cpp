@@ -60,7 +60,7 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
                                : search.to_map(initial, parts.tracker.prior(std::nullopt), parts.sigma_th_m,
                                                parts.config.icp, search.end());
   if (parts.tracker.lost() && !parts.contradicted) {
-    // The quality within the wide gate is not that within the usual one, and nothing speaks for another place.
+    // Within the wide gate the pose is a coarse one, and nothing speaks for another place.
     Registration usual = held(parts, search, found);
     if (!parts.initial_pose.suspicious(usual.quality) && !newly_degenerate(parts, usual)) {
       return usual;

@@ -121,13 +121,24 @@ class PoseSearches : public ::testing::Test {
   PoseDerivative still_;
 };
 
-TEST_F(PoseSearches, QualityIsScoreTimesShareOverResiduals) {
-  IcpResult icp;
-  icp.inliers = 300;
-  icp.residual_rms_m = 0.02;
-  EXPECT_NEAR(quality_of(icp, 0.8, 1000), 0.8 * 0.3 / 0.02, 1e-9);
-  icp.residual_rms_m = 0.0;
-  EXPECT_EQ(quality_of(icp, 0.8, 1000), 0.0);
+TEST_F(PoseSearches, QualityIsScoreTimesShareOverDistance) {
+  EXPECT_NEAR(quality_of({0.3, 0.02}, 0.8), 0.8 * 0.3 / 0.02, 1e-9);
+  EXPECT_EQ(quality_of({0.0, 0.0}, 0.8), 0.0);
+}
+
+// A car moves off: the error of the prediction widens the threshold, and points beside the planes count more.
+TEST_F(PoseSearches, QualityIsThatOfThePoseWhateverTheThreshold) {
+  map_road(kIrregular);
+  see_road(1.0, kIrregular);
+  for (std::size_t i = 0; i < prepared_.source.points.size(); i += 4) prepared_.source.points[i].y() += 0.25F;
+  const RegistrationParts all = parts();
+  const auto with = [&](double sigma_th_m) {
+    return PoseSearch(all).to_map(predicted(), tracker_.prior(std::nullopt), sigma_th_m, config_.icp, {});
+  };
+  const Registration narrow = with(0.03);
+  const Registration wide = with(0.2);
+  EXPECT_GT(wide.icp.residual_rms_m, 2.0 * narrow.icp.residual_rms_m);
+  EXPECT_NEAR(wide.quality, narrow.quality, 0.1 * narrow.quality);
 }
 
 TEST_F(PoseSearches, ASweepOfAnotherTimeIsFoundOnThePath) {

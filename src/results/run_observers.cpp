@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "cloud/all_round.hpp"
 #include "console/interrupt.hpp"
 #include "console/text.hpp"
 #include "io/stamp_difference.hpp"
@@ -25,6 +28,15 @@ constexpr std::int64_t kNapNs = 50'000'000;               // so that a signal en
 constexpr double kPictureVoxelM = 0.75;
 // 6 MB; beyond it the voxels grow: a long drive has small pixels anyway.
 constexpr std::size_t kPicturePoints = 100'000;
+
+/// What a user may know of points without times.
+std::string times_to_give(const std::vector<Eigen::Vector3f>& points) {
+  const bool in_order = order_times(points, 1).has_value();
+  if (!in_order && !all_round(points)) return "";  // not of a sensor that turns
+  return fmt::format(
+      "; raw points of a spinning sensor: --point-times {}; points that are compensated: --point-times none",
+      in_order ? "order" : "azimuth");
+}
 
 }  // namespace
 
@@ -47,11 +59,7 @@ void ProgressLine::on_registered(const RegisteredSweep& sweep) {
   const bool first_points = !times_judged_ && times_ == PointTimes::kAuto && !sweep.sweep.points.empty();
   if (first_points) times_judged_ = true;
   if (first_points && sweep.sweep.times_s.empty()) {
-    const bool in_order = order_times(sweep.sweep.points, 1).has_value();
-    progress_.say(
-        fmt::format("rilo: note: no per-point times: no motion compensation; raw points of a spinning sensor: "
-                    "--point-times {}; points that are compensated: --point-times none",
-                    in_order ? "order" : "azimuth"));
+    progress_.say("rilo: note: no per-point times: no motion compensation" + times_to_give(sweep.sweep.points));
   }
   const bool usual = sweep.result.status == OdometryStatus::kOk;
   progress_.update(++done_, usual ? "" : std::string(to_string(sweep.result.status)));

@@ -1,11 +1,9 @@
 #include "session/compensation_trial.hpp"
 
-#include <bitset>
 #include <optional>
 #include <vector>
 
-#include "cloud/azimuth_sector.hpp"
-#include "cloud/measured_point.hpp"
+#include "cloud/all_round.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/odometry/odometry.hpp"
@@ -33,16 +31,6 @@ struct Fit {
   double residual_rms_m = 0;
   ConeVerdict cones = ConeVerdict::kNothing;
 };
-
-/// Whether points lie in nearly all directions around the z axis.
-bool all_round(const std::vector<Eigen::Vector3f>& points) {
-  constexpr std::size_t kNearlyAll = 33;
-  std::bitset<kAzimuthSectors> seen;
-  for (const Eigen::Vector3f& p : points) {
-    if (detail::is_measured(p)) seen.set(azimuth_sector(p));
-  }
-  return seen.count() >= kNearlyAll;
-}
 
 /// Which times a sweep can have.
 PointTimes times_for(const Sweep& sweep) {

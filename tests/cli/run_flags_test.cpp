@@ -1,4 +1,5 @@
 // Options of rilo run.
+#include <cmath>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -56,6 +57,21 @@ TEST(RunFlags, WithoutPointTimesItSaysWhatToDo) {
   EXPECT_EQ(notes("auto"), 1U);
   EXPECT_EQ(notes("none"), 0U);
   EXPECT_EQ(notes("azimuth"), 0U);
+}
+
+// A solid-state sensor.
+TEST(RunFlags, WhatSpinsIsNotSaidOfPointsInOneDirection) {
+  const TempDir folder;
+  std::string window;
+  for (int i = 0; i < 2000; ++i) {
+    const float azimuth = 0.6F * std::sin(0.1F * static_cast<float>(i));
+    window +=
+        bytes_of<float>({8.0F * std::cos(azimuth), 8.0F * std::sin(azimuth), 1e-3F * static_cast<float>(i), 0.0F});
+  }
+  folder.write("000000.bin", window);
+  const std::string said = rilo_succeeds({"run", folder.path(), "--one-pass"}).err;
+  EXPECT_NE(said.find("no per-point times"), std::string::npos) << said;
+  EXPECT_EQ(said.find("spinning"), std::string::npos) << said;
 }
 
 TEST(RunFlags, AnEmptyFirstSweepDoesNotSayThatTimesAreMissing) {

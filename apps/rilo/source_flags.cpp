@@ -53,7 +53,8 @@ void add_source_flags(CLI::App& command, SourceRequest& flags) {
   add_number(command, "--elevation-correction", options.elevation_correction_deg, -10, 10,
              "degrees added to every point's elevation angle. KITTI's HDL-64E needs 0.205. Off by default; stated in "
              "every result");
-  add_number(command, "--rate", options.assumed_rate_hz, 0.001, 1000, "sweeps per second of data without stamps");
+  add_number(command, "--rate", options.assumed_rate_hz, 0.001, 1000, "sweeps per second of data without stamps")
+      ->each([&flags](const std::string&) { flags.rate_given = true; });
   command.add_flag_callback(
       "--skip-bad-sweeps", [&options] { options.on_bad_sweep = OnBadSweep::kSkip; },
       "skip sweeps that cannot be read (counted in the results) instead of stopping");

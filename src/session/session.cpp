@@ -49,6 +49,7 @@ class Session::Impl {
     const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     result_.threads = options_.config.threads > 0 ? options_.config.threads : processors;
     guarded([this] { try_times(); });
+    if (!result_.failure) guarded([this] { try_rate(); });
     const std::int64_t begin_ns = steady_ns();
     if (!result_.failure) guarded([this] { run_sweeps(); });
     result_.wall_s = static_cast<double>(steady_ns() - begin_ns) * 1e-9;
@@ -96,6 +97,7 @@ class Session::Impl {
       info.warnings.push_back(name_of(*options_.calibration) +
                               ": learnt from this recording too: errors look smaller than on a new one");
     }
+    if (rate_trial_.slower()) info.warnings.push_back(rate_trial_.sentence());
     if (cones_.compensated()) {
       info.warnings.emplace_back(
           "the points have times, but seem to be compensated for the motion already (they lie on the cones of the "
@@ -137,6 +139,16 @@ class Session::Impl {
       source_ = open_();
     }
     for (SessionObserver* observer : observers_) observer->on_trial(result_.trial);
+  }
+
+  // A robot that is seen twice a second does not go on as one that is seen ten times.
+  void try_rate() {
+    if (!options_.rate_assumed || options_.one_pass || !source_->info().stamps_assumed) return;
+    const std::size_t most = options_.count > 0 ? std::min(options_.count, kCalibrationSweeps) : kCalibrationSweeps;
+    rate_trial_ = try_slower_rate(open_, options_.start, most, options_.config, options_.interrupted);
+    if (!rate_trial_.slower()) return;
+    open_ = [open = std::move(open_)] { return detail::with_slower_stamps(open(), RateTrial::kTimesSlower); };
+    source_ = open_();
   }
 
   // False at the end of the data.
@@ -246,6 +258,7 @@ class Session::Impl {
   Odometry odometry_;
   std::vector<SessionObserver*> observers_;
   SessionResult result_;
+  RateTrial rate_trial_;
   ConeVotes cones_;
   std::vector<std::string> given_;  // warnings
 };
@@ -279,6 +292,7 @@ SessionResult run_recording(const std::filesystem::path& data, const SessionOpti
                             const SourceOptions& source) {
   SessionOptions as_opened = options;
   as_opened.point_times = source.point_times;
+  as_opened.rate_assumed = source.assumed_rate_hz == SourceOptions{}.assumed_rate_hz;
   SessionResult result = Session([&] { return open_scan_source(data, source); }, as_opened).run();
   if (result.failure) std::rethrow_exception(result.failure);
   return result;

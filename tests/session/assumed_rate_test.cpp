@@ -1,7 +1,14 @@
 // The sentence about a rate that cannot be that of the sweeps.
 #include "session/assumed_rate.hpp"
 
+#include <memory>
+
 #include <gtest/gtest.h>
+
+#include "io/sources/source_wrappers.hpp"
+#include "io/sweeps_source.hpp"
+#include "rilo/session/session_observer.hpp"
+#include "rilo/simulation/drive_simulator.hpp"
 
 namespace rilo::test {
 namespace {
@@ -47,6 +54,94 @@ TEST(AssumedRate, IsDoubtedWhereManySweepsAreLost) {
     EXPECT_EQ(said_of(drive(40, 20, status), false), "");
   }
   EXPECT_EQ(said_of(drive(40, 20, OdometryStatus::kDegenerate)), "") << "a tunnel at any rate";
+}
+
+/// A car that moves off, seen every `step`-th tenth of a second; stamped as if it had been every one.
+std::vector<Sweep> seen_every(std::size_t step, std::size_t sweeps) {
+  DriveConfig config;
+  config.sensor = SensorKind::kVlp16;
+  config.sweeps = step * sweeps;
+  config.deskewed = true;
+  const DriveSimulator simulator(config);
+  std::vector<Sweep> seen;
+  for (std::size_t i = 0; i < sweeps; ++i) {
+    seen.push_back(simulator.sweep(step * i).sweep);
+    seen.back().stamp_ns = static_cast<std::int64_t>(i) * 100'000'000;
+    seen.back().times_s.clear();
+  }
+  return seen;
+}
+
+/// Sweeps whose stamps are a guess.
+class Unstamped final : public SweepsSource {
+ public:
+  using SweepsSource::SweepsSource;
+  SourceInfo info() const override {
+    SourceInfo info = SweepsSource::info();
+    info.stamps_assumed = true;
+    return info;
+  }
+};
+
+OpenSource unstamped(const std::vector<Sweep>& sweeps) {
+  return [&sweeps] { return std::make_unique<Unstamped>(sweeps); };
+}
+
+RateTrial rate_trial_of(const OpenSource& open) { return try_slower_rate(open, 0, 100, {}, {}); }
+
+TEST(SlowerRate, IsTakenWhereHalfAsManySweepsGoAstray) {
+  EXPECT_TRUE((RateTrial{10.0, 200, 4, 2}.slower()));
+  EXPECT_FALSE((RateTrial{10.0, 200, 4, 3}.slower()));
+  EXPECT_FALSE(RateTrial{}.slower()) << "not tried";
+  EXPECT_EQ((RateTrial{10.0, 200, 4, 3}.sentence()), "");
+  EXPECT_EQ((RateTrial{10.0, 200, 12, 1}.sentence()),
+            "the data has no timestamps; at 10 Hz 12 of the first 200 sweeps are lost, or lie where no sensor can have "
+            "moved to, at 2 Hz 1: assuming 2 Hz; give --rate, the sweeps a second");
+}
+
+TEST(SlowerRate, StretchesStampsAndPeriod) {
+  std::vector<Sweep> sweeps(2);
+  sweeps[1].stamp_ns = 100'000'000;
+  const auto source = detail::with_slower_stamps(std::make_unique<SweepsSource>(sweeps), 5);
+  EXPECT_EQ(source->next()->stamp_ns, 0);
+  EXPECT_EQ(source->next()->stamp_ns, 500'000'000);
+  EXPECT_FALSE(source->next());
+  EXPECT_DOUBLE_EQ(source->info().period_s, 0.5);
+}
+
+TEST(SlowerRate, IsFoundOfACarThatIsSeenOnceASecond) {
+  const std::vector<Sweep> sweeps = seen_every(10, 16);
+  const RateTrial trial = rate_trial_of(unstamped(sweeps));
+  EXPECT_EQ(trial.sweeps, 16U);
+  EXPECT_TRUE(trial.slower()) << trial.astray << " " << trial.slower_astray;
+
+  SessionOptions options;
+  options.rate_assumed = true;
+  const SessionResult run = Session(unstamped(sweeps), options).run();
+  EXPECT_DOUBLE_EQ(run.source.period_s, 0.5);
+  EXPECT_EQ(run.results[1].stamp_ns - run.results[0].stamp_ns, 500'000'000);
+  ASSERT_FALSE(run.source.warnings.empty());
+  EXPECT_EQ(run.source.warnings[0], trial.sentence());
+  for (const bool given : {false, true}) {
+    options.rate_assumed = !given;
+    options.one_pass = !given;
+    EXPECT_DOUBLE_EQ(Session(unstamped(sweeps), options).run().source.period_s, 0.1)
+        << (given ? "the rate was given" : "a single pass does not look ahead");
+  }
+}
+
+TEST(SlowerRate, IsNotTriedOfARightRateOrOfStamps) {
+  const std::vector<Sweep> right = seen_every(1, 16);
+  EXPECT_EQ(rate_trial_of(unstamped(right)).sweeps, 0U);
+  const std::vector<Sweep> slow = seen_every(10, 16);
+  EXPECT_EQ(rate_trial_of([&] { return std::make_unique<SweepsSource>(slow); }).sweeps, 0U);
+  EXPECT_EQ(rate_trial_of([] { return std::make_unique<Unstamped>(std::vector<Sweep>{}); }).sweeps, 0U);
+}
+
+// What cannot be read is for the run to report.
+TEST(SlowerRate, AnErrorEndsTheTrial) {
+  const std::vector<Sweep> slow = seen_every(10, 16);
+  EXPECT_EQ(rate_trial_of([&] { return std::make_unique<Unstamped>(slow, 0.1, 1); }).sweeps, 0U);
 }
 
 }  // namespace

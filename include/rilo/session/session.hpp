@@ -54,6 +54,9 @@ struct SessionOptions {
   /// As the source was opened. With kAuto, points that come without times are tried: when they fit better with those of
   /// their order, the run takes them (not in a single pass, which does not look ahead).
   PointTimes point_times = PointTimes::kNone;
+  /// Of data without stamps nobody has said how many sweeps a second they are. Where many of the first ones go astray
+  /// at the rate assumed, and half as many at a fifth of it, the run takes that (not in a single pass).
+  bool rate_assumed = false;
   bool keep_intensities = false;      ///< Odometry::keep_intensities
   std::function<bool()> interrupted;  ///< called before every sweep; true ends the run there. Empty: never
 };

@@ -50,6 +50,9 @@ std::unique_ptr<ScanSource> with_order_times(std::unique_ptr<ScanSource> inner);
 /// in info().
 std::unique_ptr<ScanSource> with_azimuth_times(std::unique_ptr<ScanSource> inner);
 
+/// Data without stamps, whose sweeps are taken to be so many times as far apart as was assumed.
+std::unique_ptr<ScanSource> with_slower_stamps(std::unique_ptr<ScanSource> inner, int times);
+
 /// Warns of options that make no difference to the data of `inner`, which has just been opened, and of fields of the
 /// data that may hold times and are not used.
 std::unique_ptr<ScanSource> with_option_warnings(std::unique_ptr<ScanSource> inner, const SourceOptions& options);

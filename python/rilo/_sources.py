@@ -75,7 +75,8 @@ def open(path, **options):
     time_field:               name of the field with the point times (PCD, PLY, PointCloud2).
     spin:                     clockwise or counter-clockwise, seen from above, for point_times="azimuth".
     elevation_correction_deg: added to every point's elevation angle; KITTI's HDL-64E needs 0.205.
-    rate:                     sweeps per second of data without stamps.
+    rate:                     sweeps per second of data without stamps. rilo.run() tries whether they are fewer than
+                              the 10 assumed (not another number).
     skip_bad_sweeps:          skip sweeps that cannot be read instead of raising.
 
     Raises IoError when the data cannot be read, ValueError for an option that makes no sense.

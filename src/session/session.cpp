@@ -144,8 +144,8 @@ class Session::Impl {
   // A robot that is seen twice a second does not go on as one that is seen ten times.
   void try_rate() {
     if (!options_.rate_assumed || options_.one_pass || !source_->info().stamps_assumed) return;
-    const std::size_t most = options_.count > 0 ? std::min(options_.count, kCalibrationSweeps) : kCalibrationSweeps;
-    rate_trial_ = try_slower_rate(open_, options_.start, most, options_.config, options_.interrupted);
+    // However many of them are to be run: the first poses of a run do not depend on where it ends.
+    rate_trial_ = try_slower_rate(open_, options_.start, kCalibrationSweeps, options_.config, options_.interrupted);
     if (!rate_trial_.slower()) return;
     open_ = [open = std::move(open_)] { return detail::with_slower_stamps(open(), RateTrial::kTimesSlower); };
     source_ = open_();

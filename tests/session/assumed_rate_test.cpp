@@ -122,6 +122,8 @@ TEST(SlowerRate, IsFoundOfACarThatIsSeenOnceASecond) {
   EXPECT_EQ(run.results[1].stamp_ns - run.results[0].stamp_ns, 500'000'000);
   ASSERT_FALSE(run.source.warnings.empty());
   EXPECT_EQ(run.source.warnings[0], trial.sentence());
+  options.count = 3;
+  EXPECT_DOUBLE_EQ(Session(unstamped(sweeps), options).run().source.period_s, 0.5) << "wherever the run ends";
   for (const bool given : {false, true}) {
     options.rate_assumed = !given;
     options.one_pass = !given;

@@ -152,9 +152,7 @@ void show_the_rest(const RunFlags& flags, const RunRecord& run, LiveView& view) 
   if (!flags.quiet) std::cerr << "rilo: done; the viewer stays at " << view.viewer().url() << " until Ctrl-C\n";
   try {
     RunFlags same = flags;
-    // As the run has read them.
-    if (run.trial.raw()) same.source.options.point_times = run.trial.times;
-    if (run.source.stamps_assumed) same.source.options.assumed_rate_hz = 1.0 / run.source.period_s;
+    if (run.trial.raw()) same.source.options.point_times = run.trial.times;  // as the run has read them
     const auto source = source_of(same)();
     source->skip(flags.start);
     view.show_missing(*source, run);

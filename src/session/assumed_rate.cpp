@@ -52,8 +52,7 @@ std::string RateTrial::sentence() const {
   const double slower_hz = rate_hz / kTimesSlower;
   return fmt::format(
       "the data has no timestamps; at {:g} Hz {} of the first {} sweeps are lost, or lie where no sensor can have "
-      "moved "
-      "to, at {:g} Hz {}: assuming {:g} Hz; give --rate, the sweeps a second",
+      "moved to, at {:g} Hz {}: assuming {:g} Hz; give --rate, the sweeps a second",
       rate_hz, astray, sweeps, slower_hz, slower_astray, slower_hz);
 }
 

@@ -38,8 +38,7 @@ TimedCloud near_points(const Sweep& sweep) {
     near.offsets_s.push_back(sweep.times_s[i]);
   }
   if (near.offsets_s.empty()) return near;
-  if (near.size() > kMostPoints)
-    near = thinned(near, static_cast<double>(kMostPoints) / static_cast<double>(near.size()));
+  near = thinned(near, std::min(1.0, static_cast<double>(kMostPoints) / static_cast<double>(near.size())));
   const float begin_s = span_of(near).begin_s;
   for (float& offset_s : near.offsets_s) offset_s -= begin_s;
   return near;

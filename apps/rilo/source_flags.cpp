@@ -1,6 +1,7 @@
 #include "source_flags.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "checks.hpp"
 
@@ -53,8 +54,9 @@ void add_source_flags(CLI::App& command, SourceRequest& flags) {
   add_number(command, "--elevation-correction", options.elevation_correction_deg, -10, 10,
              "degrees added to every point's elevation angle. KITTI's HDL-64E needs 0.205. Off by default; stated in "
              "every result");
-  add_number(command, "--rate", options.assumed_rate_hz, 0.001, 1000, "sweeps per second of data without stamps")
-      ->each([&flags](const std::string&) { flags.rate_given = true; });
+  command.add_option("--rate", options.rate_hz, "sweeps per second of data without stamps")
+      ->check(number_within(0.001, 1000))
+      ->default_str(fmt::format("{:g}", options.assumed_rate_hz()));
   command.add_flag_callback(
       "--skip-bad-sweeps", [&options] { options.on_bad_sweep = OnBadSweep::kSkip; },
       "skip sweeps that cannot be read (counted in the results) instead of stopping");

@@ -176,7 +176,7 @@ def open(
     time_field: str = "",
     spin: Literal["clockwise", "counter-clockwise"] = "clockwise",
     elevation_correction_deg: float = 0.0,
-    rate: float = 10.0,
+    rate: Optional[float] = None,
     skip_bad_sweeps: bool = False,
 ) -> ScanSource: ...
 def run(
@@ -201,7 +201,7 @@ def run(
     time_field: str = "",
     spin: Literal["clockwise", "counter-clockwise"] = "clockwise",
     elevation_correction_deg: float = 0.0,
-    rate: float = 10.0,
+    rate: Optional[float] = None,
     skip_bad_sweeps: bool = False,
 ) -> RunResult: ...
 

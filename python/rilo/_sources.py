@@ -17,7 +17,7 @@ _DEFAULTS = {
     "time_field": "",
     "spin": "clockwise",
     "elevation_correction_deg": 0.0,
-    "rate": 10.0,
+    "rate": None,
     "skip_bad_sweeps": False,
 }
 
@@ -27,8 +27,11 @@ def _refuse(name, value, expected):
 
 
 def _checked(name, value):
-    """An option as its default is: text, a number or a bool; sensor_file is a path, too."""
+    """An option as its default is: text, a number (or None, where that is the default) or a bool; sensor_file is a
+    path, too."""
     default = _DEFAULTS[name]
+    if value is None and default is None:
+        return None
     if isinstance(default, str):
         value = os.fspath(value) if name == "sensor_file" and hasattr(value, "__fspath__") else value
         return value if isinstance(value, str) else _refuse(name, value, "text")
@@ -75,8 +78,8 @@ def open(path, **options):
     time_field:               name of the field with the point times (PCD, PLY, PointCloud2).
     spin:                     clockwise or counter-clockwise, seen from above, for point_times="azimuth".
     elevation_correction_deg: added to every point's elevation angle; KITTI's HDL-64E needs 0.205.
-    rate:                     sweeps per second of data without stamps. rilo.run() tries whether they are fewer than
-                              the 10 assumed (not another number).
+    rate:                     sweeps per second of data without stamps. None: 10, and rilo.run() tries whether they are
+                              fewer.
     skip_bad_sweeps:          skip sweeps that cannot be read instead of raising.
 
     Raises IoError when the data cannot be read, ValueError for an option that makes no sense.

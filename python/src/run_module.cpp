@@ -87,7 +87,7 @@ PythonRun run(const std::filesystem::path& source, const SourceOptions& source_o
   options.count = count;
   options.one_pass = one_pass;
   options.point_times = source_options.point_times;
-  options.rate_assumed = source_options.assumed_rate_hz == SourceOptions{}.assumed_rate_hz;
+  options.rate_assumed = !source_options.rate_hz;
   options.interrupted = signal_arrived;
   if (map_voxel_m && !(*map_voxel_m > 0)) {
     throw py::value_error(text_of("map_voxel_m: got %g; expected a length above 0 m", *map_voxel_m));

@@ -44,7 +44,7 @@ SourceOptions options_of(const std::string& topic, const std::filesystem::path& 
                          const std::string& bin_fields, const std::string& point_times,
                          const std::string& point_time_unit, const std::string& point_time_reference,
                          const std::string& time_field, const std::string& spin, double elevation_correction_deg,
-                         double rate, bool skip_bad_sweeps) {
+                         std::optional<double> rate, bool skip_bad_sweeps) {
   SourceOptions options;
   options.topic = topic;
   options.sensor_file = sensor_file.string();
@@ -57,7 +57,7 @@ SourceOptions options_of(const std::string& topic, const std::filesystem::path& 
   options.time_field = time_field;
   options.spin_direction = choice("spin", spin, parse_spin_direction, "clockwise or counter-clockwise");
   options.elevation_correction_deg = elevation_correction_deg;
-  options.assumed_rate_hz = rate;
+  options.rate_hz = rate;
   options.on_bad_sweep = skip_bad_sweeps ? OnBadSweep::kSkip : OnBadSweep::kFail;
   return options;
 }

@@ -65,6 +65,7 @@ def test_files_are_read(tmp_path, drive):
     with pytest.raises(rilo.IoError, match="nowhere"):
         rilo.open(str(tmp_path / "nowhere"))
     assert rilo.open(tmp_path, rate=4).period_s == 0.25
+    assert rilo.open(tmp_path, rate=None).period_s == 0.1
     assert next(rilo.open(tmp_path, point_times="azimuth")).times_s is not None
     assert np.all(next(rilo.open(tmp_path, bin_fields="x,y,z,time", point_time_unit="s")).times_s == 1)
     one, other = (next(rilo.open(tmp_path, point_times="azimuth", spin=s)) for s in ("clockwise", "counter-clockwise"))

@@ -111,7 +111,8 @@ void add_source(KeyVisitor& keys, SourceOptions& s) {
       {"spin", "", "rotation direction seen from above, for times from the azimuth"}, s.spin_direction,
       {{"clockwise", SpinDirection::kClockwise}, {"counter-clockwise", SpinDirection::kCounterClockwise}});
   keys.real({"elevation_correction", "deg", "added to every elevation angle"}, s.elevation_correction_deg, -10, 10);
-  keys.real({"rate", "Hz", "of the sweeps, where no period can be seen"}, s.assumed_rate_hz, 0.001, 1000);
+  keys.real({"rate", "Hz", "of the sweeps, where no period can be seen"}, s.rate_hz.emplace(s.assumed_rate_hz()), 0.001,
+            1000);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ SessionOptions session_options(const RunRequest& request, const OdometryConfig& 
   options.one_pass = request.one_pass;
   // Times of the data that are asked for are not replaced by others.
   options.point_times = request.source.times_needed ? PointTimes::kNone : request.source.options.point_times;
-  options.rate_assumed = !request.source.rate_given;
+  options.rate_assumed = !request.source.options.rate_hz;
   options.keep_intensities = request.map_intensity;
   options.interrupted = [] { return InterruptGuard::signal() != 0; };
   return options;

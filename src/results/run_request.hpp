@@ -14,7 +14,6 @@ namespace rilo {
 struct SourceRequest {
   SourceOptions options;
   bool times_needed = false;  ///< sweeps without point times are an error
-  bool rate_given = false;    ///< options.assumed_rate_hz is not a guess
 };
 
 /// @throws RunError, kBadData, when the sweep of that name lacks the point times that are needed.

@@ -1,7 +1,6 @@
 #include "rilo/session/session.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <system_error>
@@ -19,6 +18,7 @@
 #include "session/assumed_rate.hpp"
 #include "session/beam_cones.hpp"
 #include "session/compensation_trial.hpp"
+#include "session/dropped_calibration.hpp"
 #include "session/map_beginnings.hpp"
 #include "session/process_memory.hpp"
 
@@ -218,26 +218,15 @@ class Session::Impl {
 
   // About the whole run.
   void give_last_warnings() {
-    for (const std::string& warning : {further_maps(result_.results, result_.indices),
-                                       doubtful_rate(result_.source, result_.results), dropped_calibration()}) {
+    const std::string dropped = options_.calibration ? dropped_calibration(*options_.calibration, result_.learnt,
+                                                                           options_.config.elevation.significance)
+                                                     : "";
+    for (const std::string& warning :
+         {further_maps(result_.results, result_.indices), doubtful_rate(result_.source, result_.results), dropped}) {
       if (warning.empty()) continue;
       result_.source.warnings.push_back(warning);
       for (SessionObserver* observer : observers_) observer->on_warning(warning);
     }
-  }
-
-  // What was told and what the sweeps say are averaged, unless they contradict each other: an average lies nearer.
-  std::string dropped_calibration() const {
-    if (!options_.calibration) return "";
-    const AngleEstimate& told = options_.calibration->elevation_estimate;
-    const AngleEstimate& found = result_.learnt.elevation_estimate;
-    const double far_rad = options_.config.elevation.significance * told.sigma_rad;
-    if (!std::isfinite(told.sigma_rad) || !(std::abs(found.rad - told.rad) > far_rad)) return "";
-    return fmt::format(
-        "{}: its elevation offset, {:+.3f} ± {:.3f} deg, contradicts this recording, {:+.3f} ± {:.3f} deg, and does "
-        "not count: of another unit, or of before a repair?",
-        name_of(*options_.calibration), kDegPerRad * told.rad, kDegPerRad * told.sigma_rad, kDegPerRad * found.rad,
-        kDegPerRad * found.sigma_rad);
   }
 
   std::string nothing_to_run() const {
@@ -292,7 +281,7 @@ SessionResult run_recording(const std::filesystem::path& data, const SessionOpti
                             const SourceOptions& source) {
   SessionOptions as_opened = options;
   as_opened.point_times = source.point_times;
-  as_opened.rate_assumed = source.assumed_rate_hz == SourceOptions{}.assumed_rate_hz;
+  as_opened.rate_assumed = !source.rate_hz;
   SessionResult result = Session([&] { return open_scan_source(data, source); }, as_opened).run();
   if (result.failure) std::rethrow_exception(result.failure);
   return result;

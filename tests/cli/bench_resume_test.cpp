@@ -84,6 +84,17 @@ TEST(BenchResume, FinishedCellsAreNotRunAgainUnlessSomethingChanged) {
   EXPECT_EQ(cells_in(out).size(), 8U);
 }
 
+// A rate that is assumed may be changed by the run, one that is given is not.
+TEST(BenchResume, AGivenRateIsAnotherRunThanTheSameOneAssumed) {
+  const TempDir folder;
+  const auto plan =
+      folder.write("plan.yaml", "sequences: [{name: s, path: '" + shared_drive().string() + "', count: 2}]\n");
+  const auto out = folder / "out";
+  rilo_succeeds({"bench", plan, "--out", out, "--quiet"});
+  rilo_succeeds({"bench", plan, "--out", out, "--quiet", "--rate", "10"});
+  EXPECT_EQ(cells_in(out).size(), 2U);
+}
+
 TEST(BenchResume, AChangedCalibrationIsRunAgain) {
   const TempDir folder;
   const std::string yaml = "elevation_offset_deg: 0.1\nbeams: []\n...\n";

@@ -21,7 +21,7 @@ struct LiveQueueOptions {
   std::string topic = "/points";  ///< for messages
   std::size_t limit = 2;          ///< messages that may wait: beyond it the oldest goes; 0: all wait
   /// The first messages show the sweeps' period, as at the start of a recording (12 there): these are held back, and
-  /// none of them is dropped. 0: none, the period is 1 / assumed_rate_hz.
+  /// none of them is dropped. 0: none, the period is 1 / SourceOptions::assumed_rate_hz().
   std::size_t look_ahead = 12;
   double look_ahead_wait_s = 3;  ///< a longer wait for a message ends the look-ahead
 };

@@ -45,7 +45,7 @@ struct SourceInfo {
   std::string format;          ///< "bin", "pcd", "ply", "mcap", "ROS 1 bag", …
   std::filesystem::path path;  ///< as given
   std::optional<std::size_t> sweeps;
-  double period_s = 0.1;                ///< mean step of the stamps without gaps, or 1 / assumed_rate_hz
+  double period_s = 0.1;                ///< mean step of the stamps without gaps, or 1 / the rate assumed
   bool stamps_assumed = false;          ///< the data has no stamps
   bool has_point_times = false;         ///< sweeps come with per-point times
   std::string point_times = "none";     ///< where they come from, with unit and reference

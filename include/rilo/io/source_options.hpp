@@ -69,9 +69,13 @@ struct SourceOptions {
   std::string time_field;
   SpinDirection spin_direction = SpinDirection::kClockwise;  ///< for PointTimes::kAzimuth
   double elevation_correction_deg = 0;  ///< added to every point's elevation angle; KITTI's HDL-64E needs 0.205
-  double assumed_rate_hz = 10;          ///< for data without stamps
+  /// Sweeps a second of data without stamps. None: 10 are assumed, and a run of two passes may find that they are a
+  /// fifth of that.
+  std::optional<double> rate_hz;
   OnBadSweep on_bad_sweep = OnBadSweep::kFail;
   std::size_t read_ahead = 2;  ///< sweeps read ahead on a background thread; 0: none
+
+  double assumed_rate_hz() const { return rate_hz.value_or(10); }
 };
 
 }  // namespace rilo

@@ -146,7 +146,7 @@ class FileSource final : public ScanSource {
     if (info.stamps_assumed && info.kind != "file") {
       info.warnings.insert(
           info.warnings.begin(),
-          fmt::format("no timestamps found; assuming {:g} Hz (change with --rate)", options_.assumed_rate_hz));
+          fmt::format("no timestamps found; assuming {:g} Hz (change with --rate)", options_.assumed_rate_hz()));
     }
     for (std::string& warning : timing_.warnings()) info.warnings.push_back(std::move(warning));
     add_bad_sweep_count(info);

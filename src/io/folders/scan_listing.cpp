@@ -71,7 +71,7 @@ std::vector<std::int64_t> find_stamps(const fs::path& folder, bool look_above, S
 }
 
 void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const SourceOptions& options) {
-  listing.info.period_s = 1 / options.assumed_rate_hz;
+  listing.info.period_s = 1 / options.assumed_rate_hz();
   if (!stamps.empty()) {
     listing.stamps_ns = std::move(stamps);
     const auto period_s = mean_period_s(listing.stamps_ns);
@@ -82,7 +82,7 @@ void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const So
     return;
   }
   listing.info.stamps_assumed = true;
-  const double period_ns = 1e9 / options.assumed_rate_hz;
+  const double period_ns = 1e9 / options.assumed_rate_hz();
   for (const std::int64_t place : places_from_names(listing.files)) {
     listing.stamps_ns.push_back(std::llround(static_cast<double>(place) * period_ns));
   }

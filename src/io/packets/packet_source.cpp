@@ -24,7 +24,7 @@ class PacketSource final : public ScanSource {
     info_.kind = "packets";
     info_.path = path;
     info_.topic = topic;
-    info_.period_s = 1 / options.assumed_rate_hz;
+    info_.period_s = 1 / options.assumed_rate_hz();
     find_period();
   }
 

@@ -67,7 +67,7 @@ class RecordingSource final : public ScanSource {
     } else if (unstamped_) {
       info.warnings.push_back(fmt::format(
           "the messages have no stamps: {}",
-          info.stamps_assumed ? fmt::format("assuming {:g} Hz (change with --rate)", options_.assumed_rate_hz)
+          info.stamps_assumed ? fmt::format("assuming {:g} Hz (change with --rate)", options_.assumed_rate_hz())
                               : "the times when they were recorded are used"));
     }
     for (std::string& warning : timing_->warnings()) info.warnings.push_back(std::move(warning));
@@ -132,7 +132,7 @@ class RecordingSource final : public ScanSource {
     unstamped_ = stamps.size() > 1 && std::all_of(stamps.begin(), stamps.end(), [](auto stamp) { return stamp == 0; });
     const auto period_s = mean_period_s(unstamped_ ? first.received : stamps);
     info_.stamps_assumed = unstamped_ && !period_s;
-    info_.period_s = period_s.value_or(1 / options_.assumed_rate_hz);
+    info_.period_s = period_s.value_or(1 / options_.assumed_rate_hz());
     if (period_s) note_odd_period("the messages", info_);
     PointTimeHints hints = hints_of(topic_, options_);
     hints.period_s = period_s;

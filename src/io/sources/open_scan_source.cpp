@@ -20,8 +20,8 @@ namespace {
 void check_options(const SourceOptions& options) {
   constexpr double kLargestRate = 1000;
   if (options.bin_fields != "auto") detail::parse_bin_fields(options.bin_fields);
-  if (!(options.assumed_rate_hz > 0 && options.assumed_rate_hz <= kLargestRate)) {
-    throw std::invalid_argument("assumed_rate_hz is " + std::to_string(options.assumed_rate_hz) +
+  if (!(options.assumed_rate_hz() > 0 && options.assumed_rate_hz() <= kLargestRate)) {
+    throw std::invalid_argument("rate_hz is " + std::to_string(options.assumed_rate_hz()) +
                                 "; it must be above 0 and at most 1000");
   }
 }

@@ -28,8 +28,8 @@ std::vector<std::string> unused_options(const SourceOptions& options, const Sour
     ignored("--bin-fields " + options.bin_fields, "the data are not .bin files");
   }
   const bool alone = info.sweeps == 1U;  // its length may be assumed
-  if (options.assumed_rate_hz != usual.assumed_rate_hz && !info.stamps_assumed && !alone) {
-    ignored(fmt::format("--rate {:g}", options.assumed_rate_hz), "the data have stamps");
+  if (options.rate_hz && !info.stamps_assumed && !alone) {
+    ignored(fmt::format("--rate {:g}", *options.rate_hz), "the data have stamps");
   }
   if (options.spin_direction != usual.spin_direction && options.point_times != PointTimes::kAzimuth) {
     ignored("--spin", "it is for --point-times azimuth");

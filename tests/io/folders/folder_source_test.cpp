@@ -76,7 +76,7 @@ TEST(FolderSourceTest, BinFieldsWithTime) {
   options.bin_fields = "x,y";
   EXPECT_THROW(open_scan_source(folder.path(), options), std::invalid_argument);
   options = {};
-  options.assumed_rate_hz = 0;
+  options.rate_hz = 0;
   EXPECT_THROW(open_scan_source(folder.path(), options), std::invalid_argument);
   options = {};
   options.elevation_correction_deg = std::numeric_limits<double>::quiet_NaN();

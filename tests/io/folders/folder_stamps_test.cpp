@@ -107,7 +107,7 @@ TEST(FolderStampsTest, WithoutStampsNumbersTellWhichSweepsAreMissing) {
     const TempDir folder;
     for (const std::string& name : names) folder.write(name, bytes_of<float>({1, 2, 3, 4}));
     SourceOptions options;
-    options.assumed_rate_hz = 20;
+    options.rate_hz = 20;
     const auto source = open_scan_source(folder.path(), options);
     std::vector<std::int64_t> steps;
     std::int64_t before = source->next()->stamp_ns;

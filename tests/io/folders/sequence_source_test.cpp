@@ -46,7 +46,7 @@ TEST(SequenceSourceTest, WithoutStampsTheRateIsAssumed) {
   const TempDir folder;
   write_sequence(folder, 3, "");
   SourceOptions options;
-  options.assumed_rate_hz = 20;
+  options.rate_hz = 20;
   const auto source = open_scan_source(folder.path(), options);
   EXPECT_TRUE(source->info().stamps_assumed);
   EXPECT_TRUE(has_warning(source->info(), "no timestamps found; assuming 20 Hz (change with --rate)"));

@@ -18,7 +18,7 @@ TEST(UnusedOptionsTest, OptionsThatMakeNoDifferenceAreNamed) {
   options.topic = "/points";
   options.sensor_file = "nothere.json";
   options.bin_fields = "x,y,z";
-  options.assumed_rate_hz = 20;
+  options.rate_hz = 20;
   options.spin_direction = SpinDirection::kCounterClockwise;
   options.point_time_unit = PointTimeUnit::kSeconds;
   const auto info = open_scan_source(folder.path(), options)->info();
@@ -35,7 +35,7 @@ TEST(UnusedOptionsTest, OptionsThatMakeADifferenceAreNot) {
   Sweep sweep;
   sweep.points = {{1, 2, 3}, {2, 3, 4}};
   SourceOptions options;
-  options.assumed_rate_hz = 1000;
+  options.rate_hz = 1000;
   options.point_times = PointTimes::kAzimuth;
   options.spin_direction = SpinDirection::kCounterClockwise;
   const auto warnings = [&](const std::filesystem::path& path) {
@@ -49,7 +49,7 @@ TEST(UnusedOptionsTest, OptionsThatMakeADifferenceAreNot) {
   write_ply(folder / "unstamped/b.ply", sweep);
   EXPECT_FALSE(open_scan_source(folder / "unstamped", options)->info().warnings.empty());
   EXPECT_FALSE(has_warning(open_scan_source(folder / "unstamped", options)->info(), "is ignored"));
-  options.assumed_rate_hz = 1000.1;
+  options.rate_hz = 1000.1;
   EXPECT_THROW(open_scan_source(folder / "alone", options), std::invalid_argument);
 }
 

@@ -9,6 +9,7 @@
 
 #include "cloud/azimuth_sector.hpp"
 #include "cloud/measured_point.hpp"
+#include "cloud/sensor_axis.hpp"
 
 namespace rilo {
 
@@ -17,7 +18,7 @@ inline bool all_round(const std::vector<Eigen::Vector3f>& points) {
   constexpr std::size_t kNearlyAll = 33;
   std::bitset<kAzimuthSectors> seen;
   for (const Eigen::Vector3f& p : points) {
-    if (detail::is_measured(p)) {
+    if (detail::is_measured(p) && !detail::is_near_axis(p)) {
       seen.set(azimuth_sector(p));
     }
   }

@@ -23,12 +23,13 @@ void look_at(const Sweep& sweep, DataSurvey& survey) {
   for (std::size_t i = 0; i < n; ++i) {
     const bool finite = sweep.points[i].allFinite();
     survey.not_finite += finite ? 0 : 1;
-    survey.near_axis += finite && detail::is_near_axis(sweep.points[i]) ? 1 : 0;
+    const bool near_axis = finite && detail::is_near_axis(sweep.points[i]);
+    survey.near_axis += near_axis ? 1 : 0;
     if (finite && i % stride == 0) {
       const double range_m = sweep.points[i].cast<double>().norm();
       survey.usable += within_range(range_m, PreprocessConfig{}) ? 1 : 0;
       survey.ranges.push_back(range_m);
-      directions.set(azimuth_sector(sweep.points[i]));
+      if (!near_axis) directions.set(azimuth_sector(sweep.points[i]));
     }
   }
   survey.directions |= directions;

@@ -73,6 +73,13 @@ TEST(DataSurvey, CountsThePointsNearTheAxis) {
   EXPECT_EQ(survey(std::move(sweeps)).near_axis, 3U);
 }
 
+// Drivers of sensors with a window write what did not return a few millimetres off the origin, on all sides.
+TEST(DataSurvey, PointsNearTheAxisHaveNoDirection) {
+  std::vector<Sweep> sweeps(1);
+  sweeps[0].points = {{5, 0.5F, 0}, {0.005F, 0, 0}, {-0.005F, 0.001F, 0}, {0, -0.005F, 2}};
+  EXPECT_EQ(survey(std::move(sweeps)).sectors_max, 1U);
+}
+
 TEST(UnusableSweeps, AreToldWhenTheyAreMostWithTheReasonOfTheFirst) {
   PreprocessConfig config;
   config.min_range_m = 1;

@@ -60,6 +60,9 @@ void add_statistics(py::class_<SweepResult>& result) {
           "initial_pose", [](const SweepResult& r) { return std::string(to_string(r.stats.initial_pose)); },
           "What started the fine registration: identity, prediction or coarse.")
       .def_property_readonly(
+          "loss_cause", [](const SweepResult& r) { return std::string(to_string(r.stats.loss_cause)); },
+          "Why the sweep is lost, also when a map begins with it; none: it is not. The words: docs/command.md.")
+      .def_property_readonly(
           "elevation_offset_rad", [](const SweepResult& r) { return r.stats.elevation_offset_rad; },
           "Estimate of the angle that the sensor's elevation angles lack, rad.")
       .def_property_readonly(

@@ -90,6 +90,9 @@ void NodeHealth::judge(const LiveQueueCounts& queue, StatusMessage& status) cons
   if (last_) {
     status.level = level_of(last_->status);
     status.message = to_string(last_->status);
+    if (last_->stats.loss_cause != LossCause::kNone) {
+      status.message += fmt::format(" ({})", to_string(last_->stats.loss_cause));
+    }
   } else if (sweeps_ > 0) {
     status.message = "reset, no sweep since";
   } else {

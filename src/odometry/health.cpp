@@ -8,26 +8,25 @@ bool is_degenerate(const IcpResult& icp, const HealthConfig& config, double unse
   return icp.degeneracy.relative_eigenvalues[0] < (1.0 + unseen_share) * config.degenerate_ratio;
 }
 
-bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
-  if (icp.termination == IcpTermination::kSingular || evidence.shrunk || evidence.cut_off || evidence.ambiguous ||
-      evidence.displaced) {
-    return false;
-  }
-  if (!icp.converged() && icp.frozen) {
-    return false;  // where a sweep belongs it comes to rest before its matches have to be held, or with them
-  }
-  if (evidence.second_sweep && (icp.frozen || is_degenerate(icp, config))) {
-    return false;  // along a road with little to hold on to it fits metres off, too
-  }
+LossCause loss_cause(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
+  if (icp.termination == IcpTermination::kSingular) return LossCause::kUnsolved;
+  if (evidence.shrunk) return LossCause::kCovered;
+  if (evidence.cut_off) return LossCause::kOutOfTime;
+  if (evidence.misplaced != LossCause::kNone) return evidence.misplaced;
+  // Where a sweep belongs it comes to rest before its matches have to be held, or with them.
+  if (!icp.converged() && icp.frozen) return LossCause::kNotConverged;
+  // Along a road with little to hold on to it fits metres off, too.
+  if (evidence.second_sweep && (icp.frozen || is_degenerate(icp, config))) return LossCause::kWeakSecondSweep;
   const bool established = evidence.map_sweeps >= kEstablishedSweeps;
-  if (!established && evidence.score * evidence.kept_share < config.least_score) {
-    return false;
+  if ((!established && evidence.score * evidence.kept_share < config.least_score) ||
+      evidence.score < config.lost_share * evidence.usual_score) {
+    return LossCause::kLowScore;
   }
-  return evidence.score >= config.lost_share * evidence.usual_score;
+  return evidence.possible_motion ? LossCause::kNone : LossCause::kImpossibleMotion;
 }
 
 OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
-  if (!fits_map(icp, evidence, config) || !evidence.possible_motion) {
+  if (loss_cause(icp, evidence, config) != LossCause::kNone) {
     return OdometryStatus::kLost;
   }
   if (evidence.was_lost) {

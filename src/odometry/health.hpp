@@ -17,20 +17,21 @@ struct Evidence {
   bool shrunk = false;          ///< the place is much smaller than one sweep before: something covers the sensor
   bool cut_off = false;         ///< the registration ran out of time far from its end
   bool possible_motion = true;  ///< a sensor can have moved to the pose
-  bool ambiguous = false;       ///< it may as well lie elsewhere
-  bool displaced = false;       ///< it fits worse than sweeps that belong there do, or places beside it as well
-  bool second_sweep = false;    ///< of the map: there is no usual score to judge it by
-  double unseen_share = 0;      ///< of the sweeps before: those that were degenerate
+  /// It fits worse than sweeps that belong there do, or elsewhere as well; kNone: it does not.
+  LossCause misplaced = LossCause::kNone;
+  bool second_sweep = false;  ///< of the map: there is no usual score to judge it by
+  double unseen_share = 0;    ///< of the sweeps before: those that were degenerate
 };
 
 /// Whether the sweep says too little in one direction. After sweeps of which a share did it must say more: what was put
 /// together while a direction was not seen shows how it was put together, too.
 bool is_degenerate(const IcpResult& icp, const HealthConfig& config, double unseen_share = 0.0);
 
+/// Why a registered sweep is lost. kImpossibleMotion: it fits the map well enough for its pose to be right, if no
+/// sensor could not have moved to it.
+LossCause loss_cause(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
+
 /// Status of a registered sweep.
 OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
-
-/// Whether the sweep fits the map well enough for its pose to be right, whatever the motion to it.
-bool fits_map(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
 
 }  // namespace rilo

@@ -75,7 +75,7 @@ void Pipeline::register_to_map(const PreparedSweep& prepared, SweepResult& resul
   const Judgement judgement = judge(prepared, registration, result);               // before anything is learnt
   if (judgement.status != OdometryStatus::kLost) {
     accept(prepared, std::move(registration), judgement.motion, result);  // III-C, local map
-  } else if (judgement.fits_map) {
+  } else if (judgement.fits_map()) {
     lose(prepared, predicted.steady(), registration.icp.state.T_odom_lidar, result);
   } else {
     // What a second sweep found is not certain enough to vouch for; at rest, where it is predicted, it is less likely,
@@ -193,7 +193,8 @@ Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& reg
       prepared, registration, motion,
       {map_.sweeps(), initial_pose_.expected_score(), initial_pose_.usual_quality(), tracker_.lost(), after_gap()});
   result.stats.map_score = registration.score;
-  result.stats.impossible_motion = judgement.fits_map && judgement.motion != MotionVerdict::kPossible;
+  result.stats.loss_cause = judgement.cause;
+  result.stats.impossible_motion = judgement.fits_map() && judgement.motion != MotionVerdict::kPossible;
   result.status = judgement.status;
   return judgement;
 }

@@ -29,38 +29,54 @@ bool cut_off(const IcpResult& icp, double range_m) {
 
 Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& registration, MotionVerdict motion,
                             const JudgedAgainst& before) const {
-  const bool degenerate = is_degenerate(registration.icp, config_);
-  if (motion == MotionVerdict::kImpossible && before.usual_quality > 0.0 && !degenerate && settled(registration.icp) &&
-      !suspicious(registration.quality, before.usual_quality)) {
+  const View view = view_of(registration, before);
+  if (motion == MotionVerdict::kImpossible && before.usual_quality > 0.0 && !view.degenerate &&
+      settled(registration.icp) && !suspicious(registration.quality, before.usual_quality)) {
     motion = MotionVerdict::kJump;  // the time is less certain than that: sweeps are missing, or come at uneven times
   }
   Evidence evidence;
   evidence.score = registration.score;
   evidence.kept_share = prepared.kept_share();
   evidence.second_sweep = before.map_sweeps == 1 && begun_in_a_row_ <= kMostBeginnings;
-  evidence.ambiguous = registration.ambiguous;
-  const bool sees_less = registration.icp.degeneracy.relative_eigenvalues[0] < kSeesLess * usual_eigenvalue_;
-  // After a loss a place that has changed must be taken as it is; so must one that shows a direction no longer.
-  const bool fits_worse = !before.was_lost && !degenerate &&
-                          registration.quality < (sees_less ? kFitsWorse : kFitsMuchWorse) * before.usual_quality;
-  // A search looks at so many places that one of them fits by chance; that two sweeps agree on one is none.
-  const bool found_by_chance =
-      before.was_lost && motion != MotionVerdict::kJump && registration.score < kFoundAgain * before.usual_score;
-  // After a gap the map may end where the sensor is: what counts is how closely the sweep fits, not how much of it,
-  // as long as it shows all directions about as usual.
-  const bool after_gap = before.after_gap && usual_residual_m_ > 0.0;
-  const bool map_may_end = after_gap && !sees_less && !degenerate;
-  evidence.displaced = (!map_may_end && (fits_worse || found_by_chance)) || !registration.stands_out ||
-                       (after_gap && !fits_closely(registration, before.usual_quality));
+  evidence.misplaced = misplaced(registration, view, motion, before);
   evidence.map_sweeps = before.map_sweeps;
-  evidence.usual_score = map_may_end ? 0.0 : before.usual_score;
+  evidence.usual_score = view.map_may_end ? 0.0 : before.usual_score;
   evidence.was_lost = before.was_lost;
   evidence.unseen_share = unseen_share_;
   evidence.shrunk = prepared.median_range_m < kShrunk * median_range_m_;
   evidence.cut_off = cut_off(registration.icp, prepared.median_range_m);
   evidence.possible_motion = motion != MotionVerdict::kImpossible;
   return {rilo::judge(registration.icp, evidence, config_), motion,
-          rilo::fits_map(registration.icp, evidence, config_)};
+          rilo::loss_cause(registration.icp, evidence, config_)};
+}
+
+SweepJudge::View SweepJudge::view_of(const Registration& registration, const JudgedAgainst& before) const {
+  View view;
+  view.degenerate = is_degenerate(registration.icp, config_);
+  view.less = registration.icp.degeneracy.relative_eigenvalues[0] < kSeesLess * usual_eigenvalue_;
+  view.after_gap = before.after_gap && usual_residual_m_ > 0.0;
+  // What counts then is how closely the sweep fits, not how much of it, as long as it shows all directions about as
+  // usual.
+  view.map_may_end = view.after_gap && !view.less && !view.degenerate;
+  return view;
+}
+
+LossCause SweepJudge::misplaced(const Registration& registration, const View& view, MotionVerdict motion,
+                                const JudgedAgainst& before) const {
+  if (registration.ambiguous) return LossCause::kAmbiguous;
+  // After a loss a place that has changed must be taken as it is; so must one that shows a direction no longer.
+  const double least_quality = (view.less ? kFitsWorse : kFitsMuchWorse) * before.usual_quality;
+  if (!view.map_may_end && !before.was_lost && !view.degenerate && registration.quality < least_quality) {
+    return LossCause::kFitsWorse;
+  }
+  // A search looks at so many places that one of them fits by chance; that two sweeps agree on one is none.
+  if (!view.map_may_end && before.was_lost && motion != MotionVerdict::kJump &&
+      registration.score < kFoundAgain * before.usual_score) {
+    return LossCause::kFoundByChance;
+  }
+  if (!registration.stands_out) return LossCause::kFitsBeside;
+  const bool closely = !view.after_gap || fits_closely(registration, before.usual_quality);
+  return closely ? LossCause::kNone : LossCause::kLooseAfterGap;
 }
 
 /// Hardly a wrong sweep comes to rest with residuals like those of right ones; one whose matches had to be held has to

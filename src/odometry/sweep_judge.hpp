@@ -23,7 +23,10 @@ struct JudgedAgainst {
 struct Judgement {
   OdometryStatus status = OdometryStatus::kLost;
   MotionVerdict motion = MotionVerdict::kPossible;
-  bool fits_map = false;  ///< true with kLost: the pose would be right if the motion to it were possible
+  LossCause cause = LossCause::kNone;  ///< of kLost
+
+  /// True with kLost: the pose would be right if the motion to it were possible.
+  bool fits_map() const { return cause == LossCause::kNone || cause == LossCause::kImpossibleMotion; }
 };
 
 class SweepJudge {
@@ -52,6 +55,17 @@ class SweepJudge {
   void reset() { *this = SweepJudge(config_); }
 
  private:
+  /// What a sweep shows of a place, beside the sweeps before.
+  struct View {
+    bool degenerate = false;
+    bool less = false;  ///< of its weakest direction, much less than usual
+    bool after_gap = false;
+    bool map_may_end = false;  ///< where the sensor is, after a gap
+  };
+  View view_of(const Registration& registration, const JudgedAgainst& before) const;
+  /// Whether the sweep fits worse than usual, or elsewhere as well.
+  LossCause misplaced(const Registration& registration, const View& view, MotionVerdict motion,
+                      const JudgedAgainst& before) const;
   bool fits_closely(const Registration& registration, double usual_quality) const;
 
   HealthConfig config_;

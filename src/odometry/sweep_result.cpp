@@ -22,6 +22,23 @@ std::string_view to_string(OdometryStatus status) {
   return word_of(status, kNames);
 }
 
+std::string_view to_string(LossCause cause) {
+  constexpr std::array<std::string_view, kLossCauseCount> kNames = {"none",
+                                                                    "unsolved",
+                                                                    "covered",
+                                                                    "out_of_time",
+                                                                    "ambiguous",
+                                                                    "fits_worse",
+                                                                    "found_by_chance",
+                                                                    "fits_beside",
+                                                                    "loose_after_gap",
+                                                                    "not_converged",
+                                                                    "weak_second_sweep",
+                                                                    "low_score",
+                                                                    "impossible_motion"};
+  return word_of(cause, kNames);
+}
+
 bool belongs_in_map(OdometryStatus status, bool timed) {
   switch (status) {
     case OdometryStatus::kLost:

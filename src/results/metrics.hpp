@@ -101,6 +101,7 @@ struct RunMetrics {
   std::vector<std::string> warnings;
 
   Counts status;
+  Counts loss_causes;  ///< of the sweeps that were lost, those a map begins with among them
   Counts initial_pose;
   Counts initial_pose_reasons;
   std::size_t coarse_runs = 0;

@@ -121,6 +121,7 @@ void list_data(auto& f, auto& m) {
 
 void list_findings(auto& f, auto& m) {
   f.key("status", m.status);
+  f.key("loss_causes", m.loss_causes);
   f.key("initial_pose", m.initial_pose);
   f.key("initial_pose_reasons", m.initial_pose_reasons);
   f.key("coarse_runs", m.coarse_runs);

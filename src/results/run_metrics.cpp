@@ -46,6 +46,8 @@ void count_sweeps(const RunRecord& run, RunMetrics& metrics) {
   double iterations = 0;
   for (const SweepResult& result : run.results) {
     ++metrics.status[std::string(to_string(result.status))];
+    const LossCause cause = result.stats.loss_cause;
+    if (cause != LossCause::kNone) ++metrics.loss_causes[std::string(to_string(cause))];
     ++metrics.initial_pose[std::string(to_string(result.stats.initial_pose))];
     ++metrics.initial_pose_reasons[std::string(to_string(result.stats.initial_pose_reason))];
     metrics.coarse_runs += result.stats.coarse_ran ? 1 : 0;

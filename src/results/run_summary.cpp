@@ -18,11 +18,18 @@ std::string effort(const RunMetrics& m) {
   return text + fmt::format("peak memory     {:.0f} MiB\n", m.peak_rss_mb.value_or(0));
 }
 
-std::string statuses(const RunMetrics& m) {
-  std::string text = "status         ";
-  for (const auto& [name, count] : m.status) {
+/// A line of those that occurred.
+std::string listed(const char* title, const Counts& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts) {
     if (count > 0) text += fmt::format(" {} {}", name, count);
   }
+  return text.empty() ? "" : fmt::format("{:<15}{}", title, text);
+}
+
+std::string statuses(const RunMetrics& m) {
+  std::string text = listed("status", m.status);
+  if (!m.loss_causes.empty()) text += "\n" + listed("lost because", m.loss_causes);
   if (m.budget) {
     text += fmt::format("\nbudget {:<8} fewer points on {}, coarse stage cut on {}, over budget on {}",
                         fmt::format("{:.1f} ms", m.budget->sweep_ms), counted(m.budget->points_cut, "sweep"),

@@ -35,6 +35,8 @@ constexpr std::size_t kWords = 0;
 template <>
 constexpr std::size_t kWords<OdometryStatus> = kStatusCount;
 template <>
+constexpr std::size_t kWords<LossCause> = kLossCauseCount;
+template <>
 constexpr std::size_t kWords<InitialPoseSource> = 3;
 template <>
 constexpr std::size_t kWords<InitialPoseReason> = 8;
@@ -140,6 +142,7 @@ void add_statistics(Columns& table) {
   table.stat("elevation_applied_rad", &S::elevation_applied_rad);
   table.stat("beam_elevation_rms_rad", &S::beam_elevation_rms_rad);
   table.stat("beam_azimuth_rms_rad", &S::beam_azimuth_rms_rad);
+  table.stat("loss_cause", &S::loss_cause);
   table.stat("impossible_motion", &S::impossible_motion);
   table.stat("points_cut", &S::points_cut);
   table.stat("coarse_cut", &S::coarse_cut);

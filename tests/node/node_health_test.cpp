@@ -45,11 +45,15 @@ TEST(NodeHealth, TellsTheLevelOfTheLastSweep) {
   EXPECT_EQ(level(OdometryStatus::kRecovered), NodeLevel::kWarn);
   EXPECT_EQ(level(OdometryStatus::kLost), NodeLevel::kError);
   EXPECT_EQ(level(OdometryStatus::kEmpty), NodeLevel::kError);
+  SweepResult lost = with_status(OdometryStatus::kLost);
+  lost.stats.loss_cause = LossCause::kFitsBeside;
+  health.note_sweep(lost, 20);
+  EXPECT_EQ(health.report({++received, 0, 0}).message, "lost (fits_beside)");
   health.note_reset();
   const StatusMessage reset = health.report({++received, 0, 0});
   EXPECT_EQ(reset.message, "reset, no sweep since");
-  EXPECT_EQ(figure(reset, "status lost"), "1");
-  EXPECT_EQ(figure(reset, "sweeps registered"), "6");
+  EXPECT_EQ(figure(reset, "status lost"), "2");
+  EXPECT_EQ(figure(reset, "sweeps registered"), "7");
   EXPECT_EQ(figure(reset, "ms mean"), "20.00");
 }
 

@@ -84,7 +84,7 @@ TEST(Judging, ASweepThatDoesNotConvergeWithHeldMatchesIsLost) {
   IcpResult icp = registered(IcpTermination::kIterationLimit);
   icp.frozen = true;
   EXPECT_EQ(judge(icp, evidence(0.8), kHealth), OdometryStatus::kLost);
-  EXPECT_FALSE(fits_map(icp, evidence(0.8), kHealth));
+  EXPECT_EQ(loss_cause(icp, evidence(0.8), kHealth), LossCause::kNotConverged);
   icp.termination = IcpTermination::kConverged;
   EXPECT_EQ(judge(icp, evidence(0.8), kHealth), OdometryStatus::kOk);
 }
@@ -110,20 +110,40 @@ TEST(Judging, ASecondSweepMustConstrainAllDirections) {
 
 TEST(Judging, ASweepThatMayLieElsewhereIsLost) {
   Evidence e = evidence(0.8);
-  e.ambiguous = true;
+  e.misplaced = LossCause::kAmbiguous;
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
-  EXPECT_FALSE(fits_map(registered(), e, kHealth));
+  EXPECT_EQ(loss_cause(registered(), e, kHealth), LossCause::kAmbiguous);
 }
 
 TEST(Judging, ImpossibleMotionAndACoveredSensorAreLost) {
   Evidence e = evidence(0.8);
   e.possible_motion = false;
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
-  EXPECT_TRUE(fits_map(registered(), e, kHealth));  // a claim that the next sweep may confirm
+  EXPECT_EQ(loss_cause(registered(), e, kHealth),
+            LossCause::kImpossibleMotion);  // a claim that the next sweep may confirm
   e = evidence(0.8);
   e.shrunk = true;
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
-  EXPECT_FALSE(fits_map(registered(), e, kHealth));
+  EXPECT_EQ(loss_cause(registered(), e, kHealth), LossCause::kCovered);
+}
+
+TEST(Judging, OfSeveralCausesTheFirstIsSaid) {
+  IcpResult icp = registered();
+  EXPECT_EQ(loss_cause(icp, evidence(0.8), kHealth), LossCause::kNone);
+  Evidence e = evidence(0.1);
+  e.possible_motion = false;
+  EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kLowScore);
+  e.second_sweep = true;
+  icp.frozen = true;
+  EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kWeakSecondSweep);
+  e.misplaced = LossCause::kFitsBeside;
+  EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kFitsBeside);
+  e.cut_off = true;
+  EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kOutOfTime);
+  e.shrunk = true;
+  EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kCovered);
+  icp.termination = IcpTermination::kSingular;
+  EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kUnsolved);
 }
 
 TEST(Judging, DegeneracyIsSaid) {

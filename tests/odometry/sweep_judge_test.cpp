@@ -48,7 +48,8 @@ TEST(SweepJudge, APlaceOfLessThanAThirdOfTheLastIsACover) {
   };
   EXPECT_EQ(at(10.1).status, OdometryStatus::kOk);
   EXPECT_EQ(at(9.9).status, OdometryStatus::kLost);
-  EXPECT_FALSE(at(9.9).fits_map);
+  EXPECT_EQ(at(9.9).cause, LossCause::kCovered);
+  EXPECT_FALSE(at(9.9).fits_map());
   judge.accept(sweep_of(15.0), fitting(), false);
   EXPECT_EQ(at(9.9).status, OdometryStatus::kOk);
 }
@@ -155,7 +156,8 @@ TEST(SweepJudge, AMotionThatIsImpossibleIsAClaim) {
     return judge.judge(sweep_of(10.0), fitting(), motion, {10, 0.8, 0.0, true});
   };
   EXPECT_EQ(after(MotionVerdict::kImpossible).status, OdometryStatus::kLost);
-  EXPECT_TRUE(after(MotionVerdict::kImpossible).fits_map);
+  EXPECT_EQ(after(MotionVerdict::kImpossible).cause, LossCause::kImpossibleMotion);
+  EXPECT_TRUE(after(MotionVerdict::kImpossible).fits_map());
   EXPECT_EQ(after(MotionVerdict::kJump).status, OdometryStatus::kRecovered);
 }
 

@@ -47,6 +47,19 @@ TEST(Metrics, OfARun) {
   EXPECT_FALSE(metrics.evaluated());
 }
 
+TEST(Metrics, CausesOfLossesAreCounted) {
+  RunRecord run = short_run();
+  EXPECT_TRUE(run_metrics(run).loss_causes.empty());
+  run.results[1].status = OdometryStatus::kLost;
+  run.results[1].stats.loss_cause = LossCause::kLowScore;
+  run.results[2].status = OdometryStatus::kInitialising;  // the map is given up
+  run.results[2].stats.loss_cause = LossCause::kLowScore;
+  run.results[3].status = OdometryStatus::kLost;
+  run.results[3].stats.loss_cause = LossCause::kCovered;
+  EXPECT_EQ(run_metrics(run).loss_causes, (Counts{{"covered", 1}, {"low_score", 2}}));
+  EXPECT_THAT(run_summary(run_metrics(run)), HasSubstr("\nlost because    covered 1 low_score 2\n"));
+}
+
 TEST(Metrics, OfEverySweepAndOfTheLast) {
   RunRecord run = short_run();
   run.signal = 2;

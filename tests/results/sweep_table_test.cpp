@@ -44,6 +44,7 @@ SweepResult some_result() {
   s.elevation_applied_rad = 0.002;
   s.beam_elevation_rms_rad = 0.003;
   s.beam_azimuth_rms_rad = 0.004;
+  s.loss_cause = LossCause::kImpossibleMotion;
   s.impossible_motion = s.points_cut = s.over_budget = true;
   s.times = {1.5, 2.5, 3.5, 4.5, 12.0};
   return r;
@@ -71,6 +72,7 @@ TEST(SweepTable, IsReadBackWithoutLoss) {
   EXPECT_EQ(r.covariance, some_result().covariance);
   EXPECT_EQ(r.stats.initial_pose_reason, InitialPoseReason::kNoTime);
   EXPECT_EQ(r.stats.prediction_score, 1.0 / 3);
+  EXPECT_EQ(r.stats.loss_cause, LossCause::kImpossibleMotion);
   // Velocities are not in the file, only their norms; with them put back every column is as before.
   SweepResult again = r;
   again.twist = some_result().twist;

@@ -24,6 +24,26 @@ inline constexpr std::size_t kStatusCount = 6;
 /// Short name for files: ok, initialising, degenerate, lost, recovered, empty.
 std::string_view to_string(OdometryStatus status);
 
+/// Why a sweep is lost; of several causes the first.
+enum class LossCause : std::uint8_t {
+  kNone,
+  kUnsolved,         ///< the registration had no system to solve
+  kCovered,          ///< all is much nearer than in the sweep before, as under a cloth
+  kOutOfTime,        ///< the time budget ended the registration while the points still moved
+  kAmbiguous,        ///< it may as well lie elsewhere along its weakest directions, or did not settle in a search
+  kFitsWorse,        ///< than the sweeps before
+  kFoundByChance,    ///< after a lost sweep: a search found a place that explains less of it than usual
+  kFitsBeside,       ///< places a metre beside explain it about as well
+  kLooseAfterGap,    ///< sweeps are missing before it, and it does not fit as closely as usual
+  kNotConverged,     ///< although its matches were held
+  kWeakSecondSweep,  ///< the second sweep of a map did not converge freely, or does not constrain all directions
+  kLowScore,         ///< the map explains less of it than usual, or next to nothing
+  kImpossibleMotion  ///< it fits where no sensor can have moved to
+};
+inline constexpr std::size_t kLossCauseCount = 13;
+/// As in files: none, unsolved, covered, …
+std::string_view to_string(LossCause cause);
+
 /// Whether Odometry::last_map_points() of a sweep with that status belong in a map of the whole run. Not those of a
 /// guess, nor, where points have times, of the first sweep: its velocity was not known, its points are smeared.
 bool belongs_in_map(OdometryStatus status, bool timed);
@@ -89,8 +109,9 @@ struct SweepStats {
   double elevation_applied_rad = 0;              ///< angle added to those of the next sweep
   double beam_elevation_rms_rad = 0;             ///< root mean square of the corrections of single beams, next sweep
   double beam_azimuth_rms_rad = 0;
-  bool impossible_motion = false;  ///< it fits the map where no sensor can have moved to in its time
-  bool points_cut = false;         ///< fewer points than configured, because of the time budget
+  LossCause loss_cause = LossCause::kNone;  ///< of a lost sweep, also when a map begins with it
+  bool impossible_motion = false;           ///< it fits the map where no sensor can have moved to in its time
+  bool points_cut = false;                  ///< fewer points than configured, because of the time budget
   bool coarse_cut = false;   ///< the coarse stage or further starts skipped or aborted, because of the time budget
   bool over_budget = false;  ///< the sweep took longer than its budget all the same
   StageTimes times;

@@ -73,7 +73,9 @@ class StampOrder final : public WrappedSource {
     }
     if (back_ns > kClockJumpNs || ++in_a_row_ > kMostInARow) {
       ++faults_.clock_jumps;
-      warn(fmt::format("the stamps go back by {:.3f} s: taken as a clock that was set", back_s));
+      const bool named = inner_->info().kind == "folder";
+      warn(fmt::format("the stamps go back by {:.3f} s: taken as a clock that was set{}", back_s,
+                       named ? "; or are the files not named in the order of time?" : ""));
       return true;
     }
     ++faults_.out_of_order;

@@ -102,6 +102,59 @@ TEST(FolderStampsTest, TimestampsThatDoNotFitAreNamed) {
   EXPECT_EQ(stamps_of(folder / "s/00"), std::vector<std::int64_t>{500'000'000});
 }
 
+// Sweeps whose points have times since 1970; each begins so long after the year 2023.
+void write_with_epoch_times(const TempDir& folder, const std::vector<double>& begins_s, double point_step_s) {
+  for (std::size_t k = 0; k < begins_s.size(); ++k) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 60\nproperty float x\nproperty float y\n"
+        "property float z\nproperty double t\nend_header\n";
+    for (std::size_t i = 0; i < 60; ++i) {
+      const double time_s = 1.7e9 + begins_s[k] + point_step_s * static_cast<double>(i);
+      text += std::to_string(1 + i) + " 2 3 " + std::to_string(time_s) + "\n";
+    }
+    folder.write(std::to_string(k) + ".ply", text);
+  }
+}
+
+TEST(FolderStampsTest, TimesThatPointsAreNotToHaveStampTheirSweepsAllTheSame) {
+  const TempDir folder;
+  write_with_epoch_times(folder, {0, 0.5, 1.0, 1.5}, 0.001);
+  for (const PointTimes how : {PointTimes::kAuto, PointTimes::kNone}) {
+    SourceOptions options;
+    options.point_times = how;
+    const auto source = open_scan_source(folder.path(), options);
+    const auto sweeps = sweeps_of(*source);
+    EXPECT_FALSE(source->info().stamps_assumed);
+    EXPECT_FALSE(has_warning(source->info(), "no timestamps found"));
+    ASSERT_EQ(sweeps.size(), 4U);
+    for (const Sweep& sweep : sweeps) EXPECT_EQ(sweep.times_s.empty(), how == PointTimes::kNone);
+    EXPECT_NEAR(1e-9 * static_cast<double>(sweeps[3].stamp_ns - sweeps[0].stamp_ns), 1.5, 1e-5);
+  }
+}
+
+TEST(FolderStampsTest, TimesThatMakeNoSenseAreNoErrorWherePointsAreNotToHaveThem) {
+  const TempDir folder;
+  write_with_epoch_times(folder, {0, 0.5, 1.0}, 1e7);
+  EXPECT_THROW(sweeps_of(*open_scan_source(folder.path())), IoError);
+  SourceOptions options;
+  options.point_times = PointTimes::kNone;
+  const auto source = open_scan_source(folder.path(), options);
+  const auto sweeps = sweeps_of(*source);
+  EXPECT_TRUE(source->info().stamps_assumed);
+  EXPECT_TRUE(has_warning(source->info(), "no timestamps found"));
+  ASSERT_EQ(sweeps.size(), 3U);
+  EXPECT_EQ(sweeps[2].stamp_ns, 200'000'000);
+  EXPECT_TRUE(sweeps[2].times_s.empty());
+}
+
+TEST(FolderStampsTest, StampsThatGoBackAskForTheOrderOfTheNames) {
+  const TempDir folder;
+  write_with_epoch_times(folder, {0, 0.1, 2.1, 0.2}, 0.001);  // 0, 1, 10, 2 became 0, 1, 2, 3
+  const auto source = open_scan_source(folder.path());
+  EXPECT_EQ(sweeps_of(*source).size(), 4U);
+  EXPECT_TRUE(has_warning(source->info(), "taken as a clock that was set; or are the files not named in the order of"));
+}
+
 TEST(FolderStampsTest, WithoutStampsNumbersTellWhichSweepsAreMissing) {
   const auto steps_of = [](const std::vector<std::string>& names) {
     const TempDir folder;

@@ -1,9 +1,11 @@
 #include "session/compensation_trial.hpp"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cloud/all_round.hpp"
+#include "io/sources/source_wrappers.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/odometry/odometry.hpp"
@@ -49,9 +51,10 @@ bool give_times(Sweep& sweep, PointTimes times, double period_s) {
   return !sweep.times_s.empty();
 }
 
-/// Of at most `most` sweeps of `source`; with times, until enough moved.
-std::vector<Fit> fits_of(ScanSource& source, const OdometryConfig& config, bool with_times, std::size_t most,
-                         const std::function<bool()>& interrupted, CompensationTrial& trial) {
+/// Of at most `most` sweeps of `source`, each of which takes the period over `times_slower`; with times, until enough
+/// moved.
+std::vector<Fit> fits_of(ScanSource& source, int times_slower, const OdometryConfig& config, bool with_times,
+                         std::size_t most, const std::function<bool()>& interrupted, CompensationTrial& trial) {
   std::vector<Fit> fits;
   Odometry odometry(config);
   std::size_t compared = 0;
@@ -59,7 +62,7 @@ std::vector<Fit> fits_of(ScanSource& source, const OdometryConfig& config, bool 
     while (fits.size() < most && compared < kEnough && !(interrupted && interrupted())) {
       std::optional<Sweep> sweep = source.next();
       if (!sweep) break;
-      const double period_s = source.info().period_s;
+      const double period_s = source.info().period_s / times_slower;
       if (with_times && fits.empty()) trial.times = times_for(*sweep);
       if (with_times && !give_times(*sweep, trial.times, period_s)) break;
       if (!with_times) sweep->times_s.clear();
@@ -100,15 +103,16 @@ bool CompensationTrial::compensated() const {
 }
 
 CompensationTrial try_compensation(const OpenSource& open, std::size_t start, OdometryConfig config,
-                                   const std::function<bool()>& interrupted) {
+                                   const std::function<bool()>& interrupted, int times_slower) {
   CompensationTrial trial;
   if (!config.preprocess.deskew) return trial;
   config.budget.sweep_ms = 0;  // what is cut depends on the machine
   // One after the other: two maps at once would be the most memory of the whole run.
   const auto fits = [&](bool with_times, std::size_t most) {
-    const auto source = open();
+    auto source = open();
+    if (times_slower > 1) source = detail::with_slower_stamps(std::move(source), times_slower);
     source->skip(start);
-    return fits_of(*source, config, with_times, most, interrupted, trial);
+    return fits_of(*source, times_slower, config, with_times, most, interrupted, trial);
   };
   const std::vector<Fit> compensated = fits(true, kMostSweeps);
   const std::vector<Fit> as_read = fits(false, compensated.size());

@@ -48,8 +48,7 @@ class Session::Impl {
   SessionResult run() {
     const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     result_.threads = options_.config.threads > 0 ? options_.config.threads : processors;
-    guarded([this] { try_times(); });
-    if (!result_.failure) guarded([this] { try_rate(); });
+    if (!options_.one_pass) guarded([this] { look_ahead(); });
     const std::int64_t begin_ns = steady_ns();
     if (!result_.failure) guarded([this] { run_sweeps(); });
     result_.wall_s = static_cast<double>(steady_ns() - begin_ns) * 1e-9;
@@ -127,28 +126,39 @@ class Session::Impl {
     }
   }
 
+  // With the times and the rate that were found; a sweep does not last longer because fewer of them were kept.
+  std::unique_ptr<ScanSource> opened() const {
+    return rate_trial_.slower() ? detail::with_slower_stamps(open_(), RateTrial::kTimesSlower) : open_();
+  }
+
+  // What nobody has said of the data, and the first sweeps show.
+  void look_ahead() {
+    try_times();
+    try_rate();
+    // Sweeps that go astray at a wrong rate do not show whether their points are raw.
+    if (rate_trial_.slower() && !result_.trial.raw() && !result_.trial.compensated()) try_times();
+    if (result_.trial.times == PointTimes::kAuto) return;
+    for (SessionObserver* observer : observers_) observer->on_trial(result_.trial);
+  }
+
   // Raw points without times are common, and nothing but the fit tells them from compensated ones.
   void try_times() {
-    if (options_.point_times != PointTimes::kAuto || options_.one_pass || source_->info().has_point_times) return;
-    result_.trial = try_compensation(open_, options_.start, options_.config, options_.interrupted);
-    if (result_.trial.times == PointTimes::kAuto) return;
-    if (result_.trial.raw()) {
-      const bool in_order = result_.trial.times == PointTimes::kOrder;
-      const auto timed = in_order ? detail::with_order_times : detail::with_azimuth_times;
-      open_ = [open = std::move(open_), timed] { return timed(open()); };
-      source_ = open_();
-    }
-    for (SessionObserver* observer : observers_) observer->on_trial(result_.trial);
+    if (options_.point_times != PointTimes::kAuto || source_->info().has_point_times) return;
+    result_.trial = try_compensation(open_, options_.start, options_.config, options_.interrupted,
+                                     rate_trial_.slower() ? RateTrial::kTimesSlower : 1);
+    if (result_.trial.times == PointTimes::kAuto || !result_.trial.raw()) return;
+    const bool in_order = result_.trial.times == PointTimes::kOrder;
+    const auto timed = in_order ? detail::with_order_times : detail::with_azimuth_times;
+    open_ = [open = std::move(open_), timed] { return timed(open()); };
+    source_ = opened();
   }
 
   // A robot that is seen twice a second does not go on as one that is seen ten times.
   void try_rate() {
-    if (!options_.rate_assumed || options_.one_pass || !source_->info().stamps_assumed) return;
+    if (!options_.rate_assumed || !source_->info().stamps_assumed) return;
     // However many of them are to be run: the first poses of a run do not depend on where it ends.
     rate_trial_ = try_slower_rate(open_, options_.start, kCalibrationSweeps, options_.config, options_.interrupted);
-    if (!rate_trial_.slower()) return;
-    open_ = [open = std::move(open_)] { return detail::with_slower_stamps(open(), RateTrial::kTimesSlower); };
-    source_ = open_();
+    if (rate_trial_.slower()) source_ = opened();
   }
 
   // False at the end of the data.
@@ -194,7 +204,7 @@ class Session::Impl {
     const std::optional<KnownVelocity> velocity = velocity_after_late_beginning(result_.results);
     if (!velocity && !knows_sensor()) return;
     // Before anything is given up: the data may be gone meanwhile.
-    auto source = open_();
+    auto source = opened();
     source->skip(options_.start);
     source_ = std::move(source);
     keep_learnt();

@@ -9,6 +9,7 @@
 #include "io/sweeps_source.hpp"
 #include "rilo/session/session_observer.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
+#include "session/compensation_trial.hpp"
 
 namespace rilo::test {
 namespace {
@@ -57,11 +58,11 @@ TEST(AssumedRate, IsDoubtedWhereManySweepsAreLost) {
 }
 
 /// A car that moves off, seen every `step`-th tenth of a second; stamped as if it had been every one.
-std::vector<Sweep> seen_every(std::size_t step, std::size_t sweeps) {
+std::vector<Sweep> seen_every(std::size_t step, std::size_t sweeps, bool deskewed = true) {
   DriveConfig config;
   config.sensor = SensorKind::kVlp16;
   config.sweeps = step * sweeps;
-  config.deskewed = true;
+  config.deskewed = deskewed;
   const DriveSimulator simulator(config);
   std::vector<Sweep> seen;
   for (std::size_t i = 0; i < sweeps; ++i) {
@@ -130,6 +131,20 @@ TEST(SlowerRate, IsFoundOfACarThatIsSeenOnceASecond) {
     EXPECT_DOUBLE_EQ(Session(unstamped(sweeps), options).run().source.period_s, 0.1)
         << (given ? "the rate was given" : "a single pass does not look ahead");
   }
+}
+
+// At the wrong rate sweeps go astray, and what goes astray does not show whether it is raw.
+TEST(SlowerRate, PointsAreTriedAgainAtIt) {
+  const std::vector<Sweep> sweeps = seen_every(7, 24, false);
+  EXPECT_FALSE(try_compensation(unstamped(sweeps), 0, {}, {}).raw());
+  EXPECT_TRUE(try_compensation(unstamped(sweeps), 0, {}, {}, RateTrial::kTimesSlower).raw());
+  SessionOptions options;
+  options.rate_assumed = true;
+  options.point_times = PointTimes::kAuto;
+  const SessionResult run = Session(unstamped(sweeps), options).run();
+  EXPECT_DOUBLE_EQ(run.source.period_s, 0.5);
+  EXPECT_TRUE(run.trial.raw());
+  EXPECT_EQ(run.source.point_times, "order of the points, period 0.100000 s") << "a sweep takes no longer";
 }
 
 TEST(SlowerRate, IsNotTriedOfARightRateOrOfStamps) {

@@ -198,7 +198,7 @@ void InitialPoseStage::keep_target(const TimedCloud& source, const Vector6d& twi
   restarts_due_ = false;
   target_.reset();
   const Vector6d moved = kHalfSweepS * (twist - moving_twist_);
-  if (moving_ && moved.head<3>().norm() < kPoseNoiseRad && moved.tail<3>().norm() < kPoseNoiseM) {
+  if (moving_ && within_pose_noise(moved)) {
     target_ = std::move(moving_);
   }
   target_source_.points = source.points;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "odometry/motion_prior.hpp"
+#include "odometry/pose_noise.hpp"
 #include "odometry/reach.hpp"
 #include "odometry/stamp_trust.hpp"
 #include "odometry/sweep_clock.hpp"
@@ -60,6 +61,10 @@ class MotionTracker {
   Reach reach() const;
 
   MotionVerdict weigh(const SE3& T_odom_lidar) const;
+  /// Whether that is the last trusted pose again.
+  bool stayed(const SE3& T_odom_lidar) const {
+    return within_pose_noise(se3_log(trusted_state_.T_odom_lidar.inverse() * T_odom_lidar));
+  }
 
   /// A map begins at `guess`, with the velocity there unless that is known better. Returns the state of its first
   /// sweep.

@@ -69,8 +69,9 @@ LossCause SweepJudge::misplaced(const Registration& registration, const View& vi
   if (!view.map_may_end && !before.was_lost && !view.degenerate && registration.quality < least_quality) {
     return LossCause::kFitsWorse;
   }
-  // A search looks at so many places that one of them fits by chance; that two sweeps agree on one is none.
-  if (!view.map_may_end && before.was_lost && motion != MotionVerdict::kJump &&
+  // A search looks at so many places that one of them fits by chance; that two sweeps agree on one is none, nor is the
+  // place where the sensor was.
+  if (!view.map_may_end && before.was_lost && !before.stayed && motion != MotionVerdict::kJump &&
       registration.score < kFoundAgain * before.usual_score) {
     return LossCause::kFoundByChance;
   }

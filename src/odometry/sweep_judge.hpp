@@ -17,6 +17,7 @@ struct JudgedAgainst {
   double usual_quality = 0;    ///< quality_of() of them
   bool was_lost = false;       ///< the sweep before was lost
   bool after_gap = false;      ///< sweeps are missing since the last one that was accepted
+  bool stayed = false;         ///< the sensor has not moved since that
 };
 
 /// Verdict on one registered sweep.

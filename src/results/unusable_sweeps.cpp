@@ -37,7 +37,8 @@ void UnusableSweeps::on_registered(const RegisteredSweep& sweep) {
 void UnusableSweeps::on_restart(const Restart& /*restart*/) { *this = UnusableSweeps(config_); }
 
 std::string UnusableSweeps::warning() const {
-  if (2 * unusable_ <= sweeps_) return "";
+  constexpr std::size_t kOneOf = 10;  // fewer are those of a sensor that was covered for a while
+  if (kOneOf * unusable_ < sweeps_ || unusable_ == 0) return "";
   return fmt::format("{} of {} without a usable point; the first one: {}", unusable_, counted(sweeps_, "sweep"), why_);
 }
 

@@ -22,7 +22,7 @@ class UnusableSweeps final : public SessionObserver {
   void on_registered(const RegisteredSweep& sweep) override;
   void on_restart(const Restart& restart) override;
 
-  /// A sentence when most of the sweeps are such; empty otherwise.
+  /// A sentence when a tenth of the sweeps are such; empty otherwise.
   std::string warning() const;
   /// No sweep could be used.
   bool all() const { return sweeps_ > 0 && unusable_ == sweeps_; }

@@ -74,13 +74,18 @@ RateTrial try_slower_rate(const OpenSource& open, std::size_t start, std::size_t
   return trial;
 }
 
-std::string doubtful_rate(const SourceInfo& info, const std::vector<SweepResult>& results) {
+std::string doubtful_rate(const SourceInfo& info, const std::vector<SweepResult>& results, const RateTrial& trial) {
   const std::size_t astray = count_astray(results);
   if (!info.stamps_assumed || !many(astray, results.size())) return "";
+  const bool no_better = trial.sweeps > 0 && !trial.slower();
   return fmt::format(
       "{} of {} sweeps are lost, or lie where no sensor can have moved to since the sweep before: the data has no "
-      "timestamps, and the {:g} Hz assumed may be wrong; give --rate, the sweeps a second",
-      astray, results.size(), 1.0 / info.period_s);
+      "timestamps, and the {:g} Hz assumed may be wrong{}; give --rate, the sweeps a second",
+      astray, results.size(), 1.0 / info.period_s,
+      no_better
+          ? fmt::format(", or neighbouring sweeps have little in common (at {:g} Hz {} of the first {} go astray)",
+                        trial.rate_hz / RateTrial::kTimesSlower, trial.slower_astray, trial.sweeps)
+          : "");
 }
 
 }  // namespace rilo

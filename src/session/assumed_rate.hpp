@@ -34,7 +34,8 @@ struct RateTrial {
 RateTrial try_slower_rate(const OpenSource& open, std::size_t start, std::size_t most, const OdometryConfig& config,
                           const std::function<bool()>& interrupted);
 
-/// A sentence about data without stamps of which several sweeps go astray. Empty: the data has stamps, or they are few.
-std::string doubtful_rate(const SourceInfo& info, const std::vector<SweepResult>& results);
+/// A sentence about data without stamps of which several sweeps go astray, with what was tried. Empty: the data has
+/// stamps, or they are few.
+std::string doubtful_rate(const SourceInfo& info, const std::vector<SweepResult>& results, const RateTrial& trial);
 
 }  // namespace rilo

@@ -231,8 +231,8 @@ class Session::Impl {
     const std::string dropped = options_.calibration ? dropped_calibration(*options_.calibration, result_.learnt,
                                                                            options_.config.elevation.significance)
                                                      : "";
-    for (const std::string& warning :
-         {further_maps(result_.results, result_.indices), doubtful_rate(result_.source, result_.results), dropped}) {
+    for (const std::string& warning : {further_maps(result_.results, result_.indices),
+                                       doubtful_rate(result_.source, result_.results, rate_trial_), dropped}) {
       if (warning.empty()) continue;
       result_.source.warnings.push_back(warning);
       for (SessionObserver* observer : observers_) observer->on_warning(warning);

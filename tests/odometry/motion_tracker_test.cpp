@@ -21,6 +21,20 @@ TEST(MotionTracker, LostPosesDoNotEnterThePrediction) {
   EXPECT_NEAR(x_of(tracker.predicted(0.3)), 4.0, 1e-9);
 }
 
+TEST(MotionTracker, ASensorHasStayedWhereTheLastTrustedPoseIsFoundAgain) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  tracker.lose(tracker.predicted(0.3), std::nullopt);
+  EXPECT_TRUE(tracker.stayed(at(2.09).state.T_odom_lidar));
+  EXPECT_FALSE(tracker.stayed(at(2.11).state.T_odom_lidar));
+  EXPECT_FALSE(tracker.stayed(at(3.0).state.T_odom_lidar)) << "the guess for the lost one is none";
+  SE3 turned = at(2.0).state.T_odom_lidar;
+  turned.linear() = so3_exp(Eigen::Vector3d(0, 0, 0.019));
+  EXPECT_TRUE(tracker.stayed(turned));
+  turned.linear() = so3_exp(Eigen::Vector3d(0, 0, 0.021));
+  EXPECT_FALSE(tracker.stayed(turned));
+}
+
 TEST(MotionTracker, ASweepAcceleratesFromTheOneBefore) {
   MotionTracker tracker({}, {}, {});
   tracker.begin({});

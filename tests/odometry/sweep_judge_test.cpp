@@ -136,18 +136,22 @@ TEST(SweepJudge, ASweepThatPlacesBesideExplainAsWellIsLost) {
   EXPECT_EQ(status(false), OdometryStatus::kLost);
 }
 
-TEST(SweepJudge, AfterALossASweepMustFitNearlyAsUsualUnlessTwoAgree) {
+TEST(SweepJudge, AfterALossASweepMustFitNearlyAsUsualUnlessTwoAgreeOrItHasNotMoved) {
   const SweepJudge judge(kJudgeConfig);
-  const auto status = [&](double score, bool was_lost, MotionVerdict motion = MotionVerdict::kPossible) {
+  const auto status = [&](double score, bool was_lost, MotionVerdict motion = MotionVerdict::kPossible,
+                          bool stayed = false) {
     Registration registration = fitting();
     registration.score = score;
-    return judge.judge(sweep_of(10.0), registration, motion, {10, 0.8, 0.0, was_lost}).status;
+    return judge.judge(sweep_of(10.0), registration, motion, {10, 0.8, 0.0, was_lost, false, stayed}).status;
   };
   EXPECT_EQ(status(0.57, true), OdometryStatus::kRecovered);
   EXPECT_EQ(status(0.55, true), OdometryStatus::kLost);
   EXPECT_EQ(status(0.55, false), OdometryStatus::kOk);
   EXPECT_EQ(status(0.41, true, MotionVerdict::kJump), OdometryStatus::kRecovered);
   EXPECT_EQ(status(0.39, true, MotionVerdict::kJump), OdometryStatus::kLost);
+  // A vehicle stands, and a lorry before it drives off.
+  EXPECT_EQ(status(0.41, true, MotionVerdict::kPossible, true), OdometryStatus::kRecovered);
+  EXPECT_EQ(status(0.39, true, MotionVerdict::kPossible, true), OdometryStatus::kLost);
 }
 
 TEST(SweepJudge, AMotionThatIsImpossibleIsAClaim) {

@@ -14,11 +14,11 @@
 namespace rilo::test {
 namespace {
 
-std::string said_of(const std::vector<SweepResult>& results, bool assumed = true) {
+std::string said_of(const std::vector<SweepResult>& results, bool assumed = true, const RateTrial& trial = {}) {
   SourceInfo info;
   info.period_s = 0.05;
   info.stamps_assumed = assumed;
-  return doubtful_rate(info, results);
+  return doubtful_rate(info, results, trial);
 }
 
 /// A drive whose last `astray` sweeps have that status.
@@ -45,6 +45,14 @@ TEST(AssumedRate, IsDoubtedWhereManySweepsLieTooFarOn) {
   EXPECT_EQ(said_of(jumping_drive(500, 9)), "") << "missing sweeps do that now and then";
   EXPECT_EQ(said_of(jumping_drive(40, 20), false), "") << "stamps of the data";
   EXPECT_EQ(said_of({}), "");
+}
+
+TEST(AssumedRate, SaysWhatWasTriedInVain) {
+  EXPECT_EQ(said_of(jumping_drive(40, 3), true, {20.0, 40, 3, 2}),
+            "3 of 40 sweeps are lost, or lie where no sensor can have moved to since the sweep before: the data has no "
+            "timestamps, and the 20 Hz assumed may be wrong, or neighbouring sweeps have little in common (at 4 Hz 2 "
+            "of the first 40 go astray); give --rate, the sweeps a second");
+  EXPECT_EQ(said_of(jumping_drive(40, 3), true, {20.0, 40, 9, 2}), said_of(jumping_drive(40, 3))) << "taken";
 }
 
 // Taken for five times as fast as it was, a robot is expected to go on as before: where it turns it is lost.

@@ -25,7 +25,8 @@ struct PlyBody {
 
   [[noreturn]] void fail(const std::string& position, const std::string& found, const std::string& expected) const {
     throw IoError(
-        {file.path, position, found, expected, "The file is cut off or its header is wrong: copy or write it again"});
+        {file.path, position, found, expected,
+         "The file is cut off or its header is wrong: copy or write it again, or leave it out with --skip-bad-sweeps"});
   }
 };
 

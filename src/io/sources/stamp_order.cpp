@@ -20,6 +20,7 @@ constexpr std::int64_t kClockJumpNs = 1'000'000'000;
 // So many late ones in a row: the clock was set back, by little.
 constexpr std::size_t kMostInARow = 5;
 constexpr std::size_t kMostWarnings = 20;
+constexpr std::size_t kMostGapsListed = 5;  // where every second sweep was kept, one line says as much as twenty
 
 class StampOrder final : public WrappedSource {
  public:
@@ -90,7 +91,8 @@ class StampOrder final : public WrappedSource {
     ++faults_.gaps;
     faults_.missing += missing;
     faults_.longest_gap_s = std::max(faults_.longest_gap_s, step_s);
-    warn(fmt::format("a gap of {:.3f} s before it ({} missing)", step_s, missing));
+    if (faults_.gaps <= kMostGapsListed) warn(fmt::format("a gap of {:.3f} s before it ({} missing)", step_s, missing));
+    if (faults_.gaps == kMostGapsListed + 1) warnings_.emplace_back("more gaps are counted, not listed");
   }
 
   void warn(const std::string& text) {

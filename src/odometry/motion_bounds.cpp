@@ -9,6 +9,7 @@ namespace rilo {
 namespace {
 // Stamps of arrival jitter. Up to this ratio of two steps' times the motion per sweep may be the steadier one.
 constexpr double kMostJitter = 3.0;
+constexpr double kLongestSweepS = 0.1;  // where sweeps are missing, one takes no longer than usual
 
 struct Size {
   double metres = 0;
@@ -38,6 +39,12 @@ bool possible_motion(const SE3& step, double step_s, const std::optional<SE3>& b
            change.radians <= config.max_angular_acceleration_rad_s2 * between_s * step_s + noise * kPoseNoiseRad;
   };
   return within(ratio) || (std::max(ratio, 1.0 / ratio) <= kMostJitter && within(1.0));
+}
+
+bool possible_change(const Vector6d& velocity_change, double dt_s, const MotionBoundsConfig& config) {
+  const double sweep_s = std::min(dt_s, kLongestSweepS);
+  return velocity_change.tail<3>().norm() <= config.max_acceleration_m_s2 * dt_s + kPoseNoiseM / sweep_s &&
+         velocity_change.head<3>().norm() <= config.max_angular_acceleration_rad_s2 * dt_s + kPoseNoiseRad / sweep_s;
 }
 
 }  // namespace rilo

@@ -13,4 +13,8 @@ namespace rilo {
 bool possible_motion(const SE3& step, double step_s, const std::optional<SE3>& before, double before_s,
                      const MotionBoundsConfig& config);
 
+/// Whether a sensor can have changed its velocity like that in `dt_s`, within the bounds and what the noise of poses
+/// does to the velocity during a sweep.
+bool possible_change(const Vector6d& velocity_change, double dt_s, const MotionBoundsConfig& config);
+
 }  // namespace rilo

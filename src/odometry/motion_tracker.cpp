@@ -95,14 +95,16 @@ Reach MotionTracker::reach() const {
           std::sqrt(variance.head<3>().maxCoeff())};
 }
 
-MotionVerdict MotionTracker::weigh(const SE3& T_odom_lidar) const {
-  const SE3 motion = trusted_state_.T_odom_lidar.inverse() * T_odom_lidar;
+MotionVerdict MotionTracker::weigh(const MotionState& registered) const {
+  const SE3 motion = trusted_state_.T_odom_lidar.inverse() * registered.T_odom_lidar;
   const TimeStep step = since_trusted();
-  // A stamp that may be late refutes nothing.
-  if (possible_motion(motion, step.s + step.error_s, step_, step_s_, bounds_)) {
+  const double most_s = step.s + step.error_s;  // a stamp that may be late refutes nothing
+  const Vector6d change = registered.twist_in_odom() - trusted_state_.twist_in_odom();
+  if (possible_motion(motion, most_s, step_, step_s_, bounds_) &&
+      (!step_ || possible_change(change, most_s, bounds_))) {
     return MotionVerdict::kPossible;
   }
-  return agrees_with_claim(T_odom_lidar) ? MotionVerdict::kJump : MotionVerdict::kImpossible;
+  return agrees_with_claim(registered.T_odom_lidar) ? MotionVerdict::kJump : MotionVerdict::kImpossible;
 }
 
 bool MotionTracker::agrees_with_claim(const SE3& T_odom_lidar) const {

@@ -60,7 +60,8 @@ class MotionTracker {
   /// Where the sensor may be now, from the motion up to the last trusted pose.
   Reach reach() const;
 
-  MotionVerdict weigh(const SE3& T_odom_lidar) const;
+  /// Of a registered sweep: its pose, and the velocity during it, where the one before is more than a guess.
+  MotionVerdict weigh(const MotionState& registered) const;
   /// Whether that is the last trusted pose again.
   bool stayed(const SE3& T_odom_lidar) const {
     return within_pose_noise(se3_log(trusted_state_.T_odom_lidar.inverse() * T_odom_lidar));

@@ -188,12 +188,12 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
 }
 
 Judgement Pipeline::judge(const PreparedSweep& prepared, const Registration& registration, SweepResult& result) {
-  const SE3& T = registration.icp.state.T_odom_lidar;
-  const MotionVerdict motion = tracker_.weigh(T);
+  const MotionState& state = registration.icp.state;
+  const MotionVerdict motion = tracker_.weigh(state);
   const Judgement judgement =
       judge_.judge(prepared, registration, motion,
                    {map_.sweeps(), initial_pose_.expected_score(), initial_pose_.usual_quality(), tracker_.lost(),
-                    after_gap(), tracker_.stayed(T)});
+                    after_gap(), tracker_.stayed(state.T_odom_lidar)});
   result.stats.map_score = registration.score;
   result.stats.loss_cause = judgement.cause;
   result.stats.impossible_motion = judgement.fits_map() && judgement.motion != MotionVerdict::kPossible;

@@ -62,5 +62,18 @@ TEST(MotionBounds, BeyondThreeTimesTheStepTheStampIsNoJitter) {
   EXPECT_FALSE(possible_motion(along_x(0.49), 0.4, along_x(1.0), 0.1, kBounds));
 }
 
+TEST(MotionBounds, AVelocityChangesByTheAccelerationAndTheNoiseOfASweep) {
+  const auto possible = [](double m_s, double rad_s, double dt_s) {
+    return possible_change((Vector6d() << 0, rad_s, 0, m_s, 0, 0).finished(), dt_s, kBounds);
+  };
+  EXPECT_TRUE(possible(3.99, 5.19, 0.1));
+  EXPECT_FALSE(possible(4.01, 0, 0.1));
+  EXPECT_FALSE(possible(0, 5.21, 0.1));
+  EXPECT_TRUE(possible(15.9, 0, 0.5)) << "with sweeps missing one takes no longer";
+  EXPECT_FALSE(possible(16.1, 0, 0.5));
+  EXPECT_TRUE(possible(3.49, 0, 0.05)) << "in a shorter sweep the same noise is a larger velocity";
+  EXPECT_FALSE(possible(3.51, 0, 0.05));
+}
+
 }  // namespace
 }  // namespace rilo

@@ -10,12 +10,12 @@ namespace {
 TEST(MotionJumps, AJumpIsTakenWhenTwoSweepsAgreeAndGivesNoVelocity) {
   MotionTracker tracker = driving();
   tracker.advance(after(kStepNs));
-  EXPECT_EQ(tracker.weigh(at(9.0).state.T_odom_lidar), MotionVerdict::kImpossible);  // six sweeps are missing
+  EXPECT_EQ(tracker.weigh(at(9.0).state), MotionVerdict::kImpossible);  // six sweeps are missing
   tracker.lose(tracker.predicted(0.3), at(9.0).state.T_odom_lidar);
   tracker.advance(after(kStepNs));
   EXPECT_NEAR(x_of(*tracker.predicted_from_claim()), 10.0, 1e-9);
-  EXPECT_EQ(tracker.weigh(at(10.0).state.T_odom_lidar), MotionVerdict::kJump);
-  EXPECT_EQ(tracker.weigh(at(14.0).state.T_odom_lidar), MotionVerdict::kImpossible);
+  EXPECT_EQ(tracker.weigh(at(10.0).state), MotionVerdict::kJump);
+  EXPECT_EQ(tracker.weigh(at(14.0).state), MotionVerdict::kImpossible);
   tracker.accept(at(10.0), MotionVerdict::kJump, false);
   EXPECT_FALSE(tracker.lost());
   tracker.advance(after(kStepNs));
@@ -50,8 +50,8 @@ TEST(MotionJumps, AJumpAtOnceLeavesTheMotionFromBeforeToo) {
   EXPECT_NEAR(tracker.trusted().twist[3], 10.0, 1e-12);
   tracker.advance(after(kStepNs));
   EXPECT_NEAR(x_of(tracker.predicted(0.3)), 10.0, 1e-6);
-  EXPECT_EQ(tracker.weigh(at(10.0).state.T_odom_lidar), MotionVerdict::kPossible);
-  EXPECT_EQ(tracker.weigh(at(16.0).state.T_odom_lidar), MotionVerdict::kImpossible);
+  EXPECT_EQ(tracker.weigh(at(10.0).state), MotionVerdict::kPossible);
+  EXPECT_EQ(tracker.weigh(at(16.0).state), MotionVerdict::kImpossible);
 }
 
 // The sweep after a claim fits as usual elsewhere: the claim was wrong, and the way from it is no motion.
@@ -60,10 +60,10 @@ TEST(MotionJumps, AJumpThatContradictsTheClaimLeavesTheStepFromBefore) {
   tracker.advance(after(kStepNs));
   tracker.lose(tracker.predicted(0.3), at(50.0).state.T_odom_lidar);
   tracker.advance(after(kStepNs));
-  ASSERT_EQ(tracker.weigh(at(20.0).state.T_odom_lidar), MotionVerdict::kImpossible);
+  ASSERT_EQ(tracker.weigh(at(20.0).state), MotionVerdict::kImpossible);
   tracker.accept(at(20.0), MotionVerdict::kJump, false);
   tracker.advance(after(kStepNs));
-  EXPECT_EQ(tracker.weigh(at(21.0).state.T_odom_lidar), MotionVerdict::kPossible);
+  EXPECT_EQ(tracker.weigh(at(21.0).state), MotionVerdict::kPossible);
 }
 
 TEST(MotionJumps, TwoClaimsInARowMayMoveOtherwiseThanBefore) {
@@ -75,9 +75,9 @@ TEST(MotionJumps, TwoClaimsInARowMayMoveOtherwiseThanBefore) {
   claimed(50.0);
   claimed(54.0);
   tracker.advance(after(kStepNs));
-  EXPECT_EQ(tracker.weigh(at(58.0).state.T_odom_lidar), MotionVerdict::kJump) << "40 m/s as from claim to claim";
-  EXPECT_EQ(tracker.weigh(at(55.0).state.T_odom_lidar), MotionVerdict::kJump) << "10 m/s as before the loss";
-  EXPECT_EQ(tracker.weigh(at(56.5).state.T_odom_lidar), MotionVerdict::kImpossible);
+  EXPECT_EQ(tracker.weigh(at(58.0).state), MotionVerdict::kJump) << "40 m/s as from claim to claim";
+  EXPECT_EQ(tracker.weigh(at(55.0).state), MotionVerdict::kJump) << "10 m/s as before the loss";
+  EXPECT_EQ(tracker.weigh(at(56.5).state), MotionVerdict::kImpossible);
 }
 
 TEST(MotionJumps, AClaimIsForTheNextSweepAlone) {
@@ -103,8 +103,8 @@ TEST(MotionJumps, AfterAJumpTheStepIsThatFromClaimToClaim) {
   tracker.advance(after(kStepNs));
   tracker.accept(at(58.0), MotionVerdict::kJump, false);
   tracker.advance(after(kStepNs));
-  EXPECT_EQ(tracker.weigh(at(62.0).state.T_odom_lidar), MotionVerdict::kPossible);
-  EXPECT_EQ(tracker.weigh(at(59.0).state.T_odom_lidar), MotionVerdict::kImpossible);
+  EXPECT_EQ(tracker.weigh(at(62.0).state), MotionVerdict::kPossible);
+  EXPECT_EQ(tracker.weigh(at(59.0).state), MotionVerdict::kImpossible);
 }
 
 TEST(MotionJumps, AfterALongLossTheMotionBeforeIsNoEvidence) {
@@ -117,7 +117,7 @@ TEST(MotionJumps, AfterALongLossTheMotionBeforeIsNoEvidence) {
     tracker.advance(after(kStepNs));
     tracker.accept(at(3.0 + losses), MotionVerdict::kPossible, false);
     tracker.advance(after(kStepNs));
-    return tracker.weigh(at(8.0 + losses).state.T_odom_lidar);  // 5 m on, at 50 m/s
+    return tracker.weigh(at(8.0 + losses).state);  // 5 m on, at 50 m/s
   };
   EXPECT_EQ(next_after_losses(1), MotionVerdict::kImpossible) << "it had 10 m/s";
   EXPECT_EQ(next_after_losses(4), MotionVerdict::kPossible);

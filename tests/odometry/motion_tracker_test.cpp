@@ -78,13 +78,30 @@ TEST(MotionTracker, AQuarterOfTheChangeOfTheAccelerationGoesOn) {
 }
 
 TEST(MotionTracker, AStampThatMayBeLateRefutesNoMotion) {
-  const SE3 next = at(3.0).state.T_odom_lidar;
+  const MotionState next = at(3.0).state;
   MotionTracker tracker = driving();
   tracker.advance({.step_ns = kStepNs / 10, .even_ns = kStepNs / 10});
   EXPECT_EQ(tracker.weigh(next), MotionVerdict::kImpossible) << "1 m in 10 ms";
   tracker = driving();
   tracker.advance({.step_ns = kStepNs / 10, .even_ns = kStepNs});
   EXPECT_EQ(tracker.weigh(next), MotionVerdict::kPossible);
+}
+
+// A sweep bent along a wrong velocity fits a little beside its place.
+TEST(MotionTracker, AVelocityThatCannotFollowTheOneBeforeIsImpossible) {
+  MotionTracker tracker = driving();
+  tracker.advance(after(kStepNs));
+  MotionState next = at(3.0).state;
+  next.twist[3] = 13.9;  // 30 m/s² for 0.1 s, and 1 m/s of noise
+  EXPECT_EQ(tracker.weigh(next), MotionVerdict::kPossible);
+  next.twist[3] = 14.1;
+  EXPECT_EQ(tracker.weigh(next), MotionVerdict::kImpossible);
+  next.twist << 0.0, 0.0, 5.3, 10.0, 0.0, 0.0;  // 50 rad/s² for 0.1 s, and 0.2 rad/s of noise
+  EXPECT_EQ(tracker.weigh(next), MotionVerdict::kImpossible);
+  MotionTracker begun({}, {}, {});
+  begun.begin({});
+  begun.advance(after(kStepNs));
+  EXPECT_EQ(begun.weigh(at(1.0).state), MotionVerdict::kPossible) << "the velocity at the beginning is a guess";
 }
 
 TEST(MotionTracker, StampsThatMotionContradictsDoNotCount) {
@@ -173,7 +190,7 @@ TEST(MotionTracker, ANewMapBeginsWithoutWhatWas) {
   EXPECT_FALSE(tracker.lost());
   EXPECT_FALSE(tracker.degenerate());
   EXPECT_FALSE(tracker.predicted_from_claim());
-  EXPECT_EQ(tracker.weigh(at(5.0).state.T_odom_lidar), MotionVerdict::kPossible) << "50 m/s at once";
+  EXPECT_EQ(tracker.weigh(at(5.0).state), MotionVerdict::kPossible) << "50 m/s at once";
   MotionTracker fresh({}, {}, {});
   fresh.begin(moving);
   fresh.advance(after(kStepNs));
@@ -189,8 +206,10 @@ TEST(MotionTracker, AMapBeginsWithAKnownVelocityUntilASweepIsAcceptedOrItsTimeHa
   EXPECT_TRUE(tracker.begun_moving());
   tracker.advance(after(kStepNs));
   EXPECT_NEAR(tracker.predicted(0.3).T_odom_lidar.translation().x(), 2.0, 1e-9);
-  EXPECT_EQ(tracker.weigh(at(2.0).state.T_odom_lidar), MotionVerdict::kPossible);
-  EXPECT_EQ(tracker.weigh(at(0.0).state.T_odom_lidar), MotionVerdict::kImpossible) << "200 m/s²";
+  MotionState second = at(2.0).state;
+  second.twist[3] = 20.0;
+  EXPECT_EQ(tracker.weigh(second), MotionVerdict::kPossible);
+  EXPECT_EQ(tracker.weigh(at(0.0).state), MotionVerdict::kImpossible) << "200 m/s²";
   // A random walk for 0.25 s, with a fifth of the configured 10 m/s², and as configured for the step.
   EXPECT_NEAR(covariance_of(tracker.prior(std::nullopt))(9, 9), 0.25 * 0.4 + 0.1 * 10.0, 1e-9);
 

@@ -27,8 +27,7 @@ struct Evidence {
 /// together while a direction was not seen shows how it was put together, too.
 bool is_degenerate(const IcpResult& icp, const HealthConfig& config, double unseen_share = 0.0);
 
-/// Why a registered sweep is lost. kImpossibleMotion: it fits the map well enough for its pose to be right, if no
-/// sensor could not have moved to it.
+/// Why a registered sweep is lost. kImpossibleMotion: its pose would be right if the motion to it were possible.
 LossCause loss_cause(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
 
 /// Status of a registered sweep.

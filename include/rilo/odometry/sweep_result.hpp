@@ -38,7 +38,7 @@ enum class LossCause : std::uint8_t {
   kNotConverged,     ///< although its matches were held
   kWeakSecondSweep,  ///< the second sweep of a map did not converge freely, or does not constrain all directions
   kLowScore,         ///< the map explains less of it than usual, or next to nothing
-  kImpossibleMotion  ///< it fits where no sensor can have moved to
+  kImpossibleMotion  ///< it fits where no sensor can have moved to, or with a velocity that none can have there
 };
 inline constexpr std::size_t kLossCauseCount = 13;
 /// As in files: none, unsolved, covered, …

@@ -55,7 +55,7 @@ SweepJudge::View SweepJudge::view_of(const Registration& registration, const Jud
   view.degenerate = is_degenerate(registration.icp, config_);
   view.less = registration.icp.degeneracy.relative_eigenvalues[0] < kSeesLess * usual_eigenvalue_;
   view.after_gap = before.after_gap && usual_residual_m_ > 0.0;
-  // What counts then is how closely the sweep fits, not how much of it, as long as it shows all directions about as
+  // What counts there is how closely the sweep fits, not how much of it, as long as it shows all directions about as
   // usual.
   view.map_may_end = view.after_gap && !view.less && !view.degenerate;
   return view;

@@ -61,7 +61,7 @@ class SweepJudge {
     bool degenerate = false;
     bool less = false;  ///< of its weakest direction, much less than usual
     bool after_gap = false;
-    bool map_may_end = false;  ///< where the sensor is, after a gap
+    bool map_may_end = false;  ///< where the sensor is now, after a gap
   };
   View view_of(const Registration& registration, const JudgedAgainst& before) const;
   /// Whether the sweep fits worse than usual, or elsewhere as well.

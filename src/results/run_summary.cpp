@@ -18,13 +18,13 @@ std::string effort(const RunMetrics& m) {
   return text + fmt::format("peak memory     {:.0f} MiB\n", m.peak_rss_mb.value_or(0));
 }
 
-/// A line of those that occurred.
+/// Those that occurred.
 std::string listed(const char* title, const Counts& counts) {
-  std::string text;
+  std::string text = fmt::format("{:<15}", title);
   for (const auto& [name, count] : counts) {
     if (count > 0) text += fmt::format(" {} {}", name, count);
   }
-  return text.empty() ? "" : fmt::format("{:<15}{}", title, text);
+  return text;
 }
 
 std::string statuses(const RunMetrics& m) {

@@ -14,6 +14,10 @@
 
 namespace rilo::detail {
 
+/// What to do with a file whose body does not fit its header.
+inline constexpr const char* kCutOff =
+    "The file is cut off or its header is wrong: copy or write it again, or leave it out with --skip-bad-sweeps";
+
 /// One field of a record. A field with a count above 1 is an array; we use its first element.
 struct Field {
   std::string name;

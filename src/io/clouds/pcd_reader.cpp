@@ -16,9 +16,6 @@ namespace rilo {
 namespace detail {
 namespace {
 
-constexpr const char* kCutOff =
-    "The file is cut off or its header is wrong: copy or write it again, or leave it out with --skip-bad-sweeps";
-
 struct PcdBody {
   const FileBytes& file;
   const PcdHeader& header;

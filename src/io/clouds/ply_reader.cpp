@@ -24,9 +24,7 @@ struct PlyBody {
   bool big_endian() const { return header.encoding == PlyEncoding::kBinaryBigEndian; }
 
   [[noreturn]] void fail(const std::string& position, const std::string& found, const std::string& expected) const {
-    throw IoError(
-        {file.path, position, found, expected,
-         "The file is cut off or its header is wrong: copy or write it again, or leave it out with --skip-bad-sweeps"});
+    throw IoError({file.path, position, found, expected, kCutOff});
   }
 };
 

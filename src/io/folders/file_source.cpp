@@ -108,18 +108,11 @@ class FileSource final : public ScanSource {
   FileSource(ScanListing listing, const SourceOptions& options)
       : listing_(std::move(listing)),
         options_(with_bin_fields(listing_, options)),
-        timing_(options, hints_of(listing_, options), listing_.info.period_s) {
-    const bool own_times = options.point_times == PointTimes::kAuto;
-    const bool others = options.point_times == PointTimes::kNone || options.point_times == PointTimes::kOrder;
-    if (others && listing_.info.stamps_assumed) {
-      SourceOptions as_stored = options;
-      as_stored.point_times = PointTimes::kAuto;
-      stamping_.emplace(as_stored, hints_of(listing_, options), listing_.info.period_s);
-    }
+        timing_(options, hints_of(listing_, options), listing_.info.period_s, listing_.info.stamps_assumed) {
     const auto promised = promised_times(listing_, options_);
-    if (!own_times && !stamping_) return;
+    if (!timing_.reads_times()) return;
     const FirstTimes first = promised ? first_times() : FirstTimes{};
-    (own_times ? timing_ : *stamping_).promise(promised, first.ends, first.stamps_ns);
+    timing_.promise(promised, first.ends, first.stamps_ns);
   }
 
   std::optional<Sweep> next() override {
@@ -149,7 +142,7 @@ class FileSource final : public ScanSource {
     SourceInfo info = listing_.info;
     info.has_point_times = timing_.has_times();
     info.point_times = timing_.description();
-    if (timing_.sets_stamps() || (stamping_ && stamping_->sets_stamps())) info.stamps_assumed = false;
+    if (timing_.sets_stamps()) info.stamps_assumed = false;
     if (info.stamps_assumed && info.kind != "file") {
       info.warnings.insert(
           info.warnings.begin(),
@@ -204,25 +197,13 @@ class FileSource final : public ScanSource {
     }
     if (!times && listing_.column_points > 0) times = column_fractions(sweep.points.size(), listing_.column_points);
     timing_.apply(times, file, listing_.forward_after_s, sweep);
-    if (stamping_) stamp(times, file, sweep);
-  }
-
-  // Times that the points are not compensated with may make no sense.
-  void stamp(const std::optional<RawTimes>& times, const std::filesystem::path& file, Sweep& sweep) {
-    try {
-      stamping_->apply(times, file, 0, sweep);
-    } catch (const IoError&) {
-      stamping_->apply(std::nullopt, file, 0, sweep);
-    }
-    sweep.times_s.clear();
   }
 
   ScanListing listing_;
   SourceOptions options_;
   SweepTiming timing_;
-  std::optional<SweepTiming> stamping_;  // of sweeps without other stamps, by times that are not the points'
-  std::size_t cursor_ = 0;               // of the next sweep
-  std::size_t current_ = 0;              // of the last one
+  std::size_t cursor_ = 0;   // of the next sweep
+  std::size_t current_ = 0;  // of the last one
 };
 
 }  // namespace

@@ -14,8 +14,10 @@ std::string azimuth_description(SpinDirection direction, double period_s) {
   return "azimuth, " + std::string(to_string(direction)) + ", period " + std::to_string(period_s) + " s";
 }
 
-SweepTiming::SweepTiming(const SourceOptions& options, const PointTimeHints& hints, double period_s)
+SweepTiming::SweepTiming(const SourceOptions& options, const PointTimeHints& hints, double period_s,
+                         bool stamps_assumed)
     : from_(options.point_times),
+      for_stamps_(stamps_assumed && (from_ == PointTimes::kNone || from_ == PointTimes::kOrder)),
       spin_(options.spin_direction),
       period_s_(period_s),
       infers_unit_(hints.unit == PointTimeUnit::kInfer),
@@ -29,9 +31,10 @@ SweepTiming::SweepTiming(const SourceOptions& options, const PointTimeHints& hin
 
 void SweepTiming::promise(const std::optional<std::string>& times, const std::vector<RawTimes>& ends,
                           const std::vector<std::int64_t>& stamps_ns) {
-  if (from_ != PointTimes::kAuto) return;
+  if (!reads_times()) return;
   decoder_.learn(ends);
   expect_clock(ends, stamps_ns);
+  if (for_stamps_) return;
   // Whoever tells the unit wants what is there, but zeros tell nothing.
   const auto tells_nothing = [this](const RawTimes& raw) {
     const bool floating = is_floating(raw.type);
@@ -61,6 +64,7 @@ void SweepTiming::expect_clock(const std::vector<RawTimes>& ends, const std::vec
 
 void SweepTiming::apply(const std::optional<RawTimes>& times, const std::filesystem::path& file, double forward_after_s,
                         Sweep& sweep) {
+  if (for_stamps_) stamp(times, file, sweep);
   if (from_ == PointTimes::kNone || from_ == PointTimes::kOrder) return;  // see with_order_times()
   if (from_ == PointTimes::kAzimuth) {
     sweep.stamp_ns += nanoseconds(forward_after_s);
@@ -88,8 +92,25 @@ void SweepTiming::apply(const std::optional<RawTimes>& times, const std::filesys
   if (!decoder_.description().empty()) description_ = decoder_.description();
 }
 
+void SweepTiming::stamp(const std::optional<RawTimes>& times, const std::filesystem::path& file, Sweep& sweep) {
+  const std::int64_t own_ns = sweep.stamp_ns;
+  bool stamped = false;
+  try {
+    stamped = times && decoder_.decode(*times, file, sweep) && sets_stamps();
+  } catch (const IoError&) {
+    // Times that the points do not get may make no sense.
+  }
+  if (stamped) {
+    clock_.set(own_ns, sweep.stamp_ns);
+  } else {
+    sweep.stamp_ns = clock_.stamp_of(own_ns);
+  }
+  sweep.times_s.clear();
+}
+
 std::vector<std::string> SweepTiming::warnings() const {
   std::vector<std::string> warnings;
+  if (for_stamps_) return warnings;
   if (!constant_field_.empty()) {
     warnings.push_back("field " + constant_field_ +
                        " is the same for all points of a sweep: taken as points without times");

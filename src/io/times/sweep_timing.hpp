@@ -18,8 +18,12 @@ std::string azimuth_description(SpinDirection direction, double period_s);
 
 class SweepTiming {
  public:
-  /// `period_s` is the one for azimuth times.
-  SweepTiming(const SourceOptions& options, const PointTimeHints& hints, double period_s);
+  /// `period_s` is the one for azimuth times. `stamps_assumed`: the sweeps have no other stamps than those that times
+  /// from an epoch give them, also where the points are not to have these times (none, order).
+  SweepTiming(const SourceOptions& options, const PointTimeHints& hints, double period_s, bool stamps_assumed = false);
+
+  /// Whether stored times are of any use.
+  bool reads_times() const { return from_ == PointTimes::kAuto || for_stamps_; }
 
   /// Before the first sweep: the data promise times of that description, or none. `ends`: of the time field in the
   /// first sweeps (see add_time_ends()); a field that is the same for all points of a sweep is none. `stamps_ns`: their
@@ -42,9 +46,11 @@ class SweepTiming {
   bool sets_stamps() const;
 
  private:
+  void stamp(const std::optional<RawTimes>& times, const std::filesystem::path& file, Sweep& sweep);
   void expect_clock(const std::vector<RawTimes>& ends, const std::vector<std::int64_t>& stamps_ns);
 
   PointTimes from_;
+  bool for_stamps_;  // stored times alone, which the points do not get
   SpinDirection spin_;
   double period_s_;
   bool infers_unit_;

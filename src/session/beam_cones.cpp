@@ -81,8 +81,8 @@ ConeVerdict on_beam_cones(const Sweep& sweep, const Vector6d& twist) {
 
 bool ConeVotes::open() const { return raw_ + compensated_ < kVotes && looked_at_ < kMostLookedAt; }
 
-void ConeVotes::add(const Sweep& sweep, const SweepResult& result, double period_s) {
-  if (!open() || sweep.times_s.empty() || !registered(result) || !moved(result, period_s)) return;
+void ConeVotes::add(const Sweep& sweep, const SweepResult& result, double turn_s) {
+  if (!open() || sweep.times_s.empty() || !registered(result) || !moved(result, turn_s)) return;
   ++looked_at_;
   const ConeVerdict verdict = on_beam_cones(sweep, result.twist);
   raw_ += verdict == ConeVerdict::kRaw ? 1 : 0;

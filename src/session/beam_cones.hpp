@@ -27,8 +27,8 @@ class ConeVotes {
  public:
   /// More sweeps count.
   bool open() const;
-  /// A sweep was registered. It counts when it has times and the sensor moved, `period_s` from sweep to sweep.
-  void add(const Sweep& sweep, const SweepResult& result, double period_s);
+  /// A sweep was registered. It counts when it has times and the sensor moved within the `turn_s` of a turn.
+  void add(const Sweep& sweep, const SweepResult& result, double turn_s);
   /// Nine of the first ten that say something are compensated, although they have times.
   bool compensated() const;
 

@@ -6,6 +6,7 @@
 
 #include "cloud/all_round.hpp"
 #include "io/sources/source_wrappers.hpp"
+#include "io/times/sweep_period.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
 #include "rilo/odometry/odometry.hpp"
@@ -51,10 +52,9 @@ bool give_times(Sweep& sweep, PointTimes times, double period_s) {
   return !sweep.times_s.empty();
 }
 
-/// Of at most `most` sweeps of `source`, each of which takes the period over `times_slower`; with times, until enough
-/// moved.
-std::vector<Fit> fits_of(ScanSource& source, int times_slower, const OdometryConfig& config, bool with_times,
-                         std::size_t most, const std::function<bool()>& interrupted, CompensationTrial& trial) {
+/// Of at most `most` sweeps of `source`; with times, until enough moved.
+std::vector<Fit> fits_of(ScanSource& source, const OdometryConfig& config, bool with_times, std::size_t most,
+                         const std::function<bool()>& interrupted, CompensationTrial& trial) {
   std::vector<Fit> fits;
   Odometry odometry(config);
   std::size_t compared = 0;
@@ -62,14 +62,14 @@ std::vector<Fit> fits_of(ScanSource& source, int times_slower, const OdometryCon
     while (fits.size() < most && compared < kEnough && !(interrupted && interrupted())) {
       std::optional<Sweep> sweep = source.next();
       if (!sweep) break;
-      const double period_s = source.info().period_s / times_slower;
+      const double turn = detail::turn_s(source.info().period_s);
       if (with_times && fits.empty()) trial.times = times_for(*sweep);
-      if (with_times && !give_times(*sweep, trial.times, period_s)) break;
+      if (with_times && !give_times(*sweep, trial.times, turn)) break;
       if (!with_times) sweep->times_s.clear();
       const SweepResult result = odometry.register_sweep(*sweep);
       trial.lost += with_times && !fits.empty() && !tracked(result) ? 1 : 0;
       const bool usable = fits.size() >= kBeginning && registered(result);
-      fits.push_back({usable && (!with_times || moved(result, period_s)), result.stats.residual_rms_m});
+      fits.push_back({usable && (!with_times || moved(result, turn)), result.stats.residual_rms_m});
       if (!with_times || !fits.back().compared) continue;
       fits.back().cones = on_beam_cones(*sweep, result.twist);
       ++compared;
@@ -112,7 +112,7 @@ CompensationTrial try_compensation(const OpenSource& open, std::size_t start, Od
     auto source = open();
     if (times_slower > 1) source = detail::with_slower_stamps(std::move(source), times_slower);
     source->skip(start);
-    return fits_of(*source, times_slower, config, with_times, most, interrupted, trial);
+    return fits_of(*source, config, with_times, most, interrupted, trial);
   };
   const std::vector<Fit> compensated = fits(true, kMostSweeps);
   const std::vector<Fit> as_read = fits(false, compensated.size());

@@ -14,6 +14,7 @@
 #include "io/sources/source_wrappers.hpp"
 #include "io/steady_clock.hpp"
 #include "io/text.hpp"
+#include "io/times/sweep_period.hpp"
 #include "rilo/io/point_times.hpp"
 #include "session/assumed_rate.hpp"
 #include "session/beam_cones.hpp"
@@ -172,7 +173,7 @@ class Session::Impl {
     result_.results.push_back(result);
     result_.indices.push_back(source_->current_index());
     if (options_.config.preprocess.deskew && cones_.open()) {
-      cones_.add(*sweep, result_.results.back(), source_->info().period_s);
+      cones_.add(*sweep, result_.results.back(), detail::turn_s(source_->info().period_s));
     }
     const RegisteredSweep registered{result_.indices.back(), *sweep, result_.results.back(), odometry_};
     for (SessionObserver* observer : observers_) observer->on_registered(registered);

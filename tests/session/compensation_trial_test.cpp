@@ -29,15 +29,15 @@ struct Drive {
 };
 
 /// Column by column, as drivers write it, and without times.
-Drive drive(bool deskewed) {
+Drive drive(bool deskewed, std::size_t sweeps = kTrialSweeps) {
   DriveConfig config;
   config.sensor = SensorKind::kVlp16;
-  config.sweeps = kTrialSweeps;
+  config.sweeps = sweeps;
   config.start_s = 10.0;
   config.deskewed = deskewed;
   const DriveSimulator simulator(config);
   Drive drive;
-  for (std::size_t i = 0; i < kTrialSweeps; ++i) {
+  for (std::size_t i = 0; i < sweeps; ++i) {
     SimulatedSweep simulated = simulator.sweep(i);
     drive.sweeps.push_back(std::move(simulated.sweep));
     drive.sweeps.back().times_s.clear();
@@ -130,6 +130,18 @@ TEST(CompensationTrial, RawPointsFitBetter) {
   EXPECT_GE(trial.sweeps, kLeastCompared);
   EXPECT_GE(10 * trial.better, 9 * trial.sweeps);
   EXPECT_TRUE(trial.raw());
+}
+
+TEST(CompensationTrial, ATurnIsNotLongerWhereSweepsWereLeftOut) {
+  const std::vector<Sweep> all = drive(false, 48).sweeps;
+  std::vector<Sweep> every_third;
+  for (std::size_t i = 0; i < all.size(); i += 3) every_third.push_back(all[i]);
+  const auto open = [&] { return std::make_unique<SweepsSource>(every_third, 3 * kPeriodS); };
+  SessionOptions options;
+  options.point_times = PointTimes::kAuto;
+  const SessionResult run = Session(open, options).run();
+  EXPECT_TRUE(run.trial.raw());
+  EXPECT_EQ(run.source.point_times, "order of the points, period 0.100000 s");
 }
 
 TEST(CompensationTrial, CompensatedOnesDoNot) {

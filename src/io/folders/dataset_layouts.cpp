@@ -61,7 +61,7 @@ void make_a_drive_of(ScanListing& listing, const fs::path& folder, const SourceO
   if (!path_exists(times)) return;
   if (options.point_times == PointTimes::kAuto) add_point_times(listing, times);
   // Sweeps begin straight behind, and are stamped there.
-  listing.forward_after_s = listing.info.period_s / 2;
+  listing.forward_after_s = turn_s(listing.info.period_s) / 2;
 }
 
 ScanListing list_sequence(const fs::path& folder, const fs::path& sweeps, const SourceOptions& options) {

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "io/sources/source_wrappers.hpp"
+#include "io/times/sweep_period.hpp"
 #include "io/times/sweep_timing.hpp"
 #include "rilo/io/point_times.hpp"
 
@@ -14,13 +15,15 @@ class AzimuthTimedSource final : public WrappedSource {
 
   std::optional<Sweep> next() override {
     std::optional<Sweep> sweep = inner_->next();
-    if (sweep) sweep->times_s = azimuth_times(sweep->points, inner_->info().period_s, SpinDirection::kClockwise);
+    if (sweep)
+      sweep->times_s = azimuth_times(sweep->points, turn_s(inner_->info().period_s), SpinDirection::kClockwise);
     return sweep;
   }
   SourceInfo info() const override {
     SourceInfo info = inner_->info();
     info.has_point_times = true;
-    info.point_times = azimuth_description(SpinDirection::kClockwise, info.period_s);
+    info.point_times = azimuth_description(SpinDirection::kClockwise, turn_s(info.period_s));
+    note_left_out(info.period_s, info.warnings);
     return info;
   }
 };

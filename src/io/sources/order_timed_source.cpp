@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "io/sources/source_wrappers.hpp"
+#include "io/times/sweep_period.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
 
@@ -23,12 +24,12 @@ class OrderTimedSource final : public WrappedSource {
   std::optional<Sweep> next() override {
     std::optional<Sweep> sweep = inner_->next();
     if (!sweep || sweep->points.empty()) return sweep;
-    const double period_s = inner_->info().period_s;
-    if (auto times = order_times(sweep->points, period_s)) {
+    const double turn = turn_s(inner_->info().period_s);
+    if (auto times = order_times(sweep->points, turn)) {
       sweep->times_s = std::move(*times);
       in_order_ = true;
     } else if (in_order_) {
-      sweep->times_s = times_by_index(sweep->points.size(), period_s);
+      sweep->times_s = times_by_index(sweep->points.size(), turn);
     } else {
       throw IoError(
           {inner_->current_name(), "", "points that do not lie in the order in which a sensor that turns measured them",
@@ -40,7 +41,8 @@ class OrderTimedSource final : public WrappedSource {
   SourceInfo info() const override {
     SourceInfo info = inner_->info();
     info.has_point_times = true;
-    info.point_times = "order of the points, period " + std::to_string(info.period_s) + " s";
+    info.point_times = "order of the points, period " + std::to_string(turn_s(info.period_s)) + " s";
+    note_left_out(info.period_s, info.warnings);
     return info;
   }
 

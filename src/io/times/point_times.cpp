@@ -8,6 +8,7 @@
 
 #include "cloud/measured_point.hpp"
 #include "io/stamp_difference.hpp"
+#include "io/times/sweep_period.hpp"
 #include "io/times/time_convention.hpp"
 #include "io/times/time_field.hpp"
 #include "rilo/io/io_error.hpp"
@@ -118,7 +119,7 @@ bool PointTimeDecoder::decode(const RawTimes& raw, const std::filesystem::path& 
   }
   const PointTimeConvention convention = convention_ ? *convention_ : convention_of(raw, file, sweep);
   const double period_s = hints_.period_s.value_or(hints_.assumed_period_s);
-  const double scale = detail::seconds_per(convention.unit, period_s);
+  const double scale = detail::seconds_per(convention.unit, detail::turn_s(period_s));
   const TimeField field = convention.unit == PointTimeUnit::kFraction ? all.between(-kFractionSlack, 1 + kFractionSlack)
                                                                       : all.of_one_sweep(period_s / scale);
   detail::check_resolution(field);

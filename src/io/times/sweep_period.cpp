@@ -22,6 +22,21 @@ std::optional<double> mean_period_s(const std::vector<std::int64_t>& stamps) {
   return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
 }
 
+double turn_s(double period_s) {
+  constexpr double kSlowestS = 0.25;  // 5 Hz and some jitter
+  constexpr double kUsualS = 0.1;
+  return period_s <= kSlowestS ? period_s : period_s / std::round(period_s / kUsualS);
+}
+
+void note_left_out(double period_s, std::vector<std::string>& warnings) {
+  const double turn = turn_s(period_s);
+  if (turn == period_s) return;
+  warnings.push_back(fmt::format(
+      "sweeps are {:.3g} s apart, longer than sensors turn: some were left out, and the times of points are "
+      "those of a turn of {:.3g} s; times in seconds in the data would say it exactly",
+      period_s, turn));
+}
+
 void note_odd_period(const std::string& of, SourceInfo& info) {
   // 100 Hz and more are parts of a sweep, 1 Hz are sweeps that were thinned out: both are left a factor of two.
   constexpr double kShortest = 0.005;

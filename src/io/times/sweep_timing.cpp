@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "io/stamp_difference.hpp"
+#include "io/times/sweep_period.hpp"
 #include "io/times/time_field.hpp"
 #include "rilo/io/io_error.hpp"
 
@@ -26,7 +25,7 @@ SweepTiming::SweepTiming(const SourceOptions& options, const PointTimeHints& hin
       clock_(hints.period_s, hints.assumed_period_s) {
   if (from_ != PointTimes::kAzimuth) return;
   has_times_ = true;
-  description_ = azimuth_description(options.spin_direction, period_s);
+  description_ = azimuth_description(options.spin_direction, turn_s(period_s));
 }
 
 void SweepTiming::promise(const std::optional<std::string>& times, const std::vector<RawTimes>& ends,
@@ -68,7 +67,7 @@ void SweepTiming::apply(const std::optional<RawTimes>& times, const std::filesys
   if (from_ == PointTimes::kNone || from_ == PointTimes::kOrder) return;  // see with_order_times()
   if (from_ == PointTimes::kAzimuth) {
     sweep.stamp_ns += nanoseconds(forward_after_s);
-    sweep.times_s = azimuth_times(sweep.points, period_s_, spin_);
+    sweep.times_s = azimuth_times(sweep.points, turn_s(period_s_), spin_);
     return;
   }
   has_times_ = times.has_value();
@@ -115,14 +114,9 @@ std::vector<std::string> SweepTiming::warnings() const {
     warnings.push_back("field " + constant_field_ +
                        " is the same for all points of a sweep: taken as points without times");
   }
-  constexpr double kSlowestTurn = 0.25;  // s; 5 Hz and some jitter
   const auto& convention = decoder_.convention();
-  if (infers_unit_ && convention && convention->unit == PointTimeUnit::kFraction && period_s_ > kSlowestTurn) {
-    warnings.push_back(fmt::format(
-        "point times from 0 to 1 are taken as fractions of {:.3g} s, the step of the stamps; where sweeps were "
-        "left out, a sweep takes less: write the times in seconds",
-        period_s_));
-  }
+  const bool of_a_turn = from_ == PointTimes::kAzimuth || (convention && convention->unit == PointTimeUnit::kFraction);
+  if (of_a_turn) note_left_out(period_s_, warnings);
   if (!decoder_.warning().empty()) warnings.push_back(decoder_.warning());
   return warnings;
 }

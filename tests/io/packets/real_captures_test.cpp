@@ -89,13 +89,13 @@ TEST_F(RealFiles, Vlp32AsNebulaDecodesIt) {
 }
 
 // A few turns at 10 Hz; the sensors stood still or moved slowly.
-void expect_turns(ScanSource& source, std::size_t turns, const std::string& format, double period_s) {
+void expect_turns(ScanSource& source, std::size_t turns, const std::string& format, double sweep_s) {
   const auto sweeps = sweeps_of(source);
   EXPECT_EQ(source.info().format, format);
   ASSERT_EQ(sweeps.size(), turns);
   for (const Sweep& sweep : sweeps) {
     EXPECT_GT(sweep.points.size(), 5000U);
-    EXPECT_NEAR(*std::max_element(sweep.times_s.begin(), sweep.times_s.end()), period_s, 0.1 * period_s);
+    EXPECT_NEAR(*std::max_element(sweep.times_s.begin(), sweep.times_s.end()), sweep_s, 0.1 * sweep_s);
   }
   Odometry odometry({});
   for (const Sweep& sweep : sweeps) EXPECT_LT(odometry.register_sweep(sweep).T_odom_lidar.translation().norm(), 3.0);
@@ -139,7 +139,7 @@ TEST_F(RealFiles, PacketsInRecordings) {
   expect_turns(*vlp16, 3, "rosbag2 (sqlite3), Velodyne VLP-16, of two returns the last", 0.1);
   EXPECT_EQ(vlp16->info().topic, "/velodyne_packets");
   const auto vlp32 = open_scan_source(file("db3/velodyne_vlp32/1713492677464078412_0.db3"));
-  expect_turns(*vlp32, 4, "rosbag2 (sqlite3), Velodyne VLP-32C", 0.1);
+  expect_turns(*vlp32, 4, "rosbag2 (sqlite3), Velodyne VLP-32C", 0.05);  // it sends 180° of the turn
 #ifdef RILO_HAS_ROSBAG
   const auto ouster = open_scan_source(file("bag1/ouster_512x10_raw_packets.bag"));
   expect_turns(*ouster, 1, "ROS 1 bag, Ouster OS-0-128, RNG15_RFL8_NIR8", 0.1);

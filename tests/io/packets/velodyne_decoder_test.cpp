@@ -37,7 +37,7 @@ void expect_measured(const Sweep& sweep, std::size_t i, double clockwise_deg, do
 
 // 16 lasers fire every 55.296 µs, 2.304 µs apart, and twice a block, in which the sensor turns by 0.2°.
 TEST(VelodyneDecoderTest, EveryFiringHasItsAngleAndTime) {
-  std::vector<std::string> packets{velodyne_packet(18000, 20, 0, 0x22), velodyne_packet(18240, 400, 1327, 0x22)};
+  std::vector<std::string> packets{velodyne_packet(18000, 20, 0, 0x22), velodyne_packet(18240, 0, 1327, 0x22)};
   packets[1][501] = '\xDD';  // a lower bank, which this sensor does not have
   const auto done = revolutions_in(packets);
   ASSERT_EQ(done.size(), 1U);
@@ -46,8 +46,7 @@ TEST(VelodyneDecoderTest, EveryFiringHasItsAngleAndTime) {
   expect_measured(sweep, (3 * 2 + 1) * 16 + 5, 180.6 + 0.1 + 0.2 * 5 / 48, 7 * 55.296 + 5 * 2.304);
   // Of the last block, as far as in the one before.
   expect_measured(sweep, 23 * 16 + 15, 182.2 + 0.1 + 0.2 * 15 / 48, 23 * 55.296 + 15 * 2.304);
-  // Steps of 4° are no turning: that of before counts.
-  expect_measured(sweep, 384 + 3 * 16, 182.4 + 4 + 0.1, 1327 + 3 * 55.296);
+  expect_measured(sweep, 384 + 3 * 16, 182.4, 1327 + 3 * 55.296);
   for (const std::uint16_t ring : sweep.rings) EXPECT_LT(ring, 16);
 }
 
@@ -83,6 +82,46 @@ TEST(VelodyneDecoderTest, TwoBanksWithTheOffsetsOfTheirLasers) {
   EXPECT_EQ(sweep.rings[lower], 9);
   EXPECT_NEAR(sweep.times_s[upper], 100.5e-6, 2e-9);
   EXPECT_NEAR(sweep.times_s[lower], 100.5e-6, 2e-9);
+}
+
+/// Of a VLP-16 that turns ten times a second and sends from `first_deg` clockwise to `last_deg` alone.
+std::vector<std::string> part_of_turns(int first_deg, int last_deg, int turns) {
+  constexpr int kStep = 40;  // hundredths of a degree a block of two firings
+  constexpr double kBlockUs = 1e5 * kStep / 36000;
+  const int blocks_a_turn = (last_deg - first_deg + 360) % 360 * 100 / kStep;
+  std::vector<std::string> packets;
+  for (int sent = 0; sent + 12 <= turns * blocks_a_turn; sent += 12) {
+    std::string packet;
+    for (int block = 0; block < 12; ++block) {
+      const int turn = (sent + block) / blocks_a_turn;
+      const int step = (sent + block) % blocks_a_turn;
+      const int azimuth = (first_deg * 100 + step * kStep) % 36000;
+      const auto us = static_cast<std::uint32_t>(std::lround(turn * 1e5 + step * kBlockUs));
+      if (block == 0) packet = velodyne_packet(azimuth, kStep, us, 0x22);
+      std::memcpy(packet.data() + block * 100 + 2, &azimuth, 2);
+    }
+    packets.push_back(packet);
+  }
+  return packets;
+}
+
+// As set on the sensor's page. It fills its packets from both sides of what it does not send.
+TEST(VelodyneDecoderTest, APartOfTheTurn) {
+  for (const auto& [first_deg, last_deg] : {std::pair(320, 40), {270, 90}, {240, 120}, {90, 270}, {200, 160}}) {
+    SCOPED_TRACE(first_deg);
+    const auto done = revolutions_in(part_of_turns(first_deg, last_deg, 8));
+    const bool behind = first_deg < last_deg;  // what is sent reaches over the rear
+    ASSERT_EQ(done.size(), behind ? 9U : 8U);
+    for (std::size_t i = 1; i + 1 < done.size(); ++i) {
+      const Sweep& sweep = done[i].sweep;
+      EXPECT_TRUE(done[i].whole);
+      // A turn apart; the mean of the rate is not yet that of the sensor, which fires in 110.592 µs.
+      EXPECT_NEAR(static_cast<double>(sweep.stamp_ns - done[i - 1].sweep.stamp_ns), i == 1 && behind ? 2.5e7 : 1e8,
+                  1e6);
+      const double sent_s = 0.1 * (behind ? 360 : (last_deg - first_deg + 360) % 360) / 360;
+      EXPECT_NEAR(sweep.times_s.back(), sent_s, 2e-3);
+    }
+  }
 }
 
 TEST(VelodyneDecoderTest, NoReturnIsNoPoint) {

@@ -5,7 +5,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const rilo::fuzz::MemoryFile file(rilo::fuzz::bytes_of(data, size));
   rilo::fuzz::only_io_errors([&] {
-    const auto source = rilo::detail::open_capture(file.path(), {});
+    const auto source = rilo::detail::open_captures(file.path(), {file.path()}, {});
     rilo::fuzz::read_all(*source);
   });
   return 0;

@@ -99,9 +99,11 @@ std::string info_text(const nlohmann::json& j, const std::string& options) {
         "parts\n              see different surroundings and begin map after map\n";
   }
   const auto& stamps = j["stamps"];
-  text +=
-      fmt::format("stamps        every {:.4f} s ({:.2f} Hz){}", real(stamps["period_s"]),
-                  1.0 / real(stamps["period_s"]), stamps["assumed"].get<bool>() ? " (assumed: the data has none)" : "");
+  const bool assumed = stamps["assumed"].get<bool>();
+  text += count(j["sweeps"]) == 1 && !assumed
+              ? "stamps        of one sweep"
+              : fmt::format("stamps        every {:.4f} s ({:.2f} Hz){}", real(stamps["period_s"]),
+                            1.0 / real(stamps["period_s"]), assumed ? " (assumed: the data has none)" : "");
   if (stamps.contains("span_s")) {
     text += fmt::format(", from {} s on for {:.1f} s", word(stamps["begin_s"]), real(stamps["span_s"]));
   }

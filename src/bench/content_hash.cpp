@@ -32,7 +32,8 @@ bool is_text(const fs::path& file) {
 }
 
 bool is_data(const fs::path& file) {
-  static const std::set<std::string> kData = {".bin", ".pcd", ".ply", ".bag", ".db3", ".mcap", ".pcap", ".zstd"};
+  static const std::set<std::string> kData = {".bin",  ".pcd",  ".ply",    ".bag", ".db3",
+                                              ".mcap", ".pcap", ".pcapng", ".zstd"};
   return is_text(file) || kData.contains(extension_of(file));
 }
 

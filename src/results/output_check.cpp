@@ -52,7 +52,8 @@ bool holds_sweeps_of(const fs::path& folder, const fs::path& data) {
 }
 
 bool holds_other_data(const fs::path& folder) {
-  return !detail::files_with(folder, {".bin", ".pcd", ".ply", ".bag", ".mcap", ".db3"}).empty() && !has_a_run(folder);
+  return !detail::files_with(folder, {".bin", ".pcd", ".ply", ".bag", ".mcap", ".db3", ".pcap", ".pcapng"}).empty() &&
+         !has_a_run(folder);
 }
 
 void check_against(const fs::path& output, const std::vector<fs::path>& inputs) {

@@ -91,8 +91,8 @@ void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const So
 ScanListing list_single_file(const fs::path& file, const SourceOptions& options) {
   const std::string format = sweep_format(file);
   if (format.empty()) {
-    throw IoError({file, "", "a file with the extension " + in_quotes(file.extension().string()), ".bin, .pcd or .ply",
-                   "Give a sweep or a folder of sweeps"});
+    throw IoError({file, "", "a file with the extension " + in_quotes(file.extension().string()),
+                   "a sweep (.bin, .pcd, .ply) or a recording (.bag, .mcap, .db3, .pcap, .pcapng)", kOtherFormats});
   }
   ScanListing listing = listing_of("file", file, {format, {file}});
   set_stamps(listing, stamps_from_names(listing.files), options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -25,14 +26,35 @@ std::string name_of(const fs::path& file) {
   return (sweep_format(stem).empty() ? stem : stem.stem()).string();
 }
 
+// The name, or the one part of it that is a stamp: nuScenes has LOG__LIDAR_TOP__1532402927647951.pcd.bin.
+std::optional<std::int64_t> stamp_in_name(const fs::path& file) {
+  constexpr const char* kDigits = "0123456789";
+  const std::string name = name_of(file);
+  std::optional<std::int64_t> found;
+  for (std::size_t begin = name.find_first_of(kDigits); begin < name.size();) {
+    const std::size_t end = std::min(name.find_first_not_of("0123456789.", begin), name.size());
+    const auto stamp = parse_long_stamp(name.substr(begin, end - begin));
+    if (stamp && found) return std::nullopt;
+    if (stamp) found = stamp;
+    begin = name.find_first_of(kDigits, end);
+  }
+  return found;
+}
+
 // Decimal seconds by their value: natural order takes their decimals for whole numbers, and these are as long as
 // whoever wrote them found necessary.
-bool sort_by_seconds(std::vector<fs::path>& files) {
+std::optional<std::int64_t> seconds_of(const fs::path& file) {
+  const std::string name = name_of(file);
+  return name.find_first_not_of("0123456789.") == std::string::npos ? parse_stamp(name) : std::nullopt;
+}
+
+// False where a file has none.
+template <typename StampOf>
+bool sort_by(const StampOf& stamp_of, std::vector<fs::path>& files) {
   std::vector<std::pair<std::int64_t, fs::path>> stamped;
   for (const fs::path& file : files) {
-    const std::string name = name_of(file);
-    const auto stamp = parse_stamp(name);
-    if (!stamp || name.find_first_not_of("0123456789.") != std::string::npos) return false;
+    const std::optional<std::int64_t> stamp = stamp_of(file);
+    if (!stamp) return false;
     stamped.emplace_back(*stamp, file);
   }
   std::sort(stamped.begin(), stamped.end());
@@ -42,7 +64,7 @@ bool sort_by_seconds(std::vector<fs::path>& files) {
 
 struct FolderContent {
   std::array<std::vector<fs::path>, kFormats.size()> sweeps;
-  std::size_t others = 0;
+  std::map<std::string, std::size_t> others;  // by their extension
   std::vector<std::string> folders;
 };
 
@@ -58,7 +80,7 @@ FolderContent content_of(const fs::path& folder) {
     if (is_hidden(entry->path())) continue;
     const auto kind = std::find(kFormats.begin(), kFormats.end(), sweep_format(entry->path()));
     if (kind == kFormats.end()) {
-      ++content.others;
+      ++content.others[lower_case(entry->path().extension().string())];
     } else {
       content.sweeps[static_cast<std::size_t>(kind - kFormats.begin())].push_back(entry->path());
     }
@@ -70,15 +92,19 @@ FolderContent content_of(const fs::path& folder) {
   return content;
 }
 
-// "data/ has 108 .bin" for the first subfolder (also two levels down) that holds sweeps.
-std::optional<std::string> subfolder_with_sweeps(const fs::path& folder, const std::vector<std::string>& names) {
+struct Subfolder {
+  std::string place;
+  SweepFiles inside;
+};
+
+// The first subfolder (also two levels down) that holds sweeps.
+std::optional<Subfolder> subfolder_with_sweeps(const fs::path& folder, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     for (const char* below : {"", "data"}) {
       const std::string place = *below == 0 ? name : name + "/" + below;
       if (!is_folder(folder / place)) continue;
       try {
-        const SweepFiles inside = find_sweep_files(folder / place, false);
-        return place + "/ has " + std::to_string(inside.files.size()) + " ." + inside.format;
+        return Subfolder{place, find_sweep_files(folder / place, false)};
       } catch (const IoError&) {
         // Nothing there either, or more than one kind.
       }
@@ -88,31 +114,43 @@ std::optional<std::string> subfolder_with_sweeps(const fs::path& folder, const s
 }
 
 std::string what_to_give(const fs::path& folder) {
-  if (const std::vector<fs::path> captures = files_with(folder, {".pcap", ".pcapng"}); !captures.empty()) {
-    return "Give the recording of packets itself: " + captures[0].string();
-  }
   if (const std::vector<fs::path> arrays = files_with(folder, {".npy"}); !arrays.empty()) {
     return "Make a .bin of each array of points (N×3, N×4): numpy.load(\"" + arrays[0].filename().string() +
            "\").astype(\"<f4\").tofile(\"" + arrays[0].stem().string() + ".bin\"), or register them from Python";
   }
-  return "Give the folder that holds the sweeps themselves";
+  return std::string("Give the folder that holds the sweeps themselves. ") + kOtherFormats;
+}
+
+// "12 other files, mostly .las"
+std::string text_of(const std::map<std::string, std::size_t>& others) {
+  std::size_t files = 0;
+  std::pair<std::size_t, std::string> most;
+  for (const auto& [extension, of_it] : others) {
+    files += of_it;
+    if (of_it > most.first && !extension.empty()) most = {of_it, extension};
+  }
+  return counted(files, "other file") + (most.first > 0 ? ", mostly " + most.second : "");
 }
 
 [[noreturn]] void reject_without_sweeps(const fs::path& folder, FolderContent content, bool look_below) {
+  constexpr const char* kExpected = "sweeps, or a KITTI sequence folder with velodyne/ in it";
   std::sort(content.folders.begin(), content.folders.end(), natural_less);
   std::string found = "no sweeps here (.bin, .pcd, .ply)";
-  const auto below = look_below ? subfolder_with_sweeps(folder, content.folders) : std::nullopt;
-  if (below) {
-    throw IoError({folder, "", found + "; subfolder " + *below,
-                   "sweeps, or a KITTI sequence folder with velodyne/ in it", "Give that subfolder"});
+  if (const auto below = look_below ? subfolder_with_sweeps(folder, content.folders) : std::nullopt) {
+    const std::size_t sweeps = below->inside.files.size();
+    const bool one_each = sweeps == 1 && content.folders.size() > 1;
+    found += "; subfolder " + below->place + "/ has " + std::to_string(sweeps) + " ." + below->inside.format;
+    throw IoError({folder, "", found, kExpected,
+                   one_each ? "Put the sweeps of all the subfolders into one folder, named by their order"
+                            : "Give that subfolder"});
   }
-  found += ", " + counted(content.others, "other file");
+  found += ", " + text_of(content.others);
   constexpr std::size_t kMostNames = 5;
   for (std::size_t i = 0; i < std::min(content.folders.size(), kMostNames); ++i) {
     found += (i == 0 ? " and the folders " : ", ") + content.folders[i];
   }
   if (content.folders.size() > kMostNames) found += ", …";
-  throw IoError({folder, "", found, "sweeps, or a KITTI sequence folder with velodyne/ in it", what_to_give(folder)});
+  throw IoError({folder, "", found, kExpected, what_to_give(folder)});
 }
 
 }  // namespace
@@ -140,14 +178,14 @@ SweepFiles find_sweep_files(const fs::path& folder, bool look_below) {
     throw IoError(
         {folder, "", counts + " files", "sweeps of one kind", "Move the other files into a folder of their own"});
   }
-  if (!sort_by_seconds(found.files)) sort_naturally(found.files);
+  if (!sort_by(seconds_of, found.files) && !sort_by(stamp_in_name, found.files)) sort_naturally(found.files);
   return found;
 }
 
 std::vector<std::int64_t> stamps_from_names(const std::vector<fs::path>& files) {
   std::vector<std::int64_t> stamps;
   for (const fs::path& file : files) {
-    const auto stamp = parse_long_stamp(name_of(file));
+    const auto stamp = stamp_in_name(file);
     if (!stamp || (!stamps.empty() && *stamp <= stamps.back())) return {};
     stamps.push_back(*stamp);
   }

@@ -18,11 +18,15 @@ struct SweepFiles {
 /// @throws IoError when there is none (with `look_below`, it names a subfolder that has some), or more than one kind.
 SweepFiles find_sweep_files(const std::filesystem::path& folder, bool look_below = true);
 
+inline constexpr const char* kOtherFormats =
+    "Sweeps in other formats: convert them to .pcd or .ply (CloudCompare, PDAL, Open3D), or register their points from "
+    "Python";
+
 /// bin, pcd or ply by the extension, whatever its case; empty for other files.
 std::string sweep_format(const std::filesystem::path& file);
 
-/// Stamps of files named after them: 19 digits are ns, 16 are µs, decimals are seconds. Empty unless all files say so
-/// and the stamps increase.
+/// Stamps of files named after them, alone or among other things: 19 digits are ns, 16 are µs, decimals are seconds.
+/// Empty unless each file has one and they increase.
 std::vector<std::int64_t> stamps_from_names(const std::vector<std::filesystem::path>& files);
 
 /// Places in the recording of files that are numbered, from 0: 7.pcd, 8.pcd, 11.pcd have 0, 1, 4, and 0.bin, 5.bin,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/bad_sweeps.hpp"
+#include "io/packets/captures.hpp"
 #include "io/packets/find_decoder.hpp"
 #include "io/packets/one_sensor.hpp"
 #include "io/packets/udp_reader.hpp"
@@ -149,8 +150,8 @@ class PacketSource final : public ScanSource {
   // Once, at the end: counts that grow would be new warnings all the time.
   void add_counts(SourceInfo& info) const {
     if (incomplete_ > 0) {
-      info.warnings.push_back("dropped " + std::to_string(incomplete_) +
-                              " incomplete revolutions at the ends of the recording");
+      info.warnings.push_back("dropped " + counted(incomplete_, "incomplete revolution") +
+                              " at the ends of the recording");
     }
     if (unusable_ > 0) {
       info.warnings.push_back("dropped " + counted(unusable_, "packet") + " of another size or kind than the LiDAR's");
@@ -192,10 +193,15 @@ std::unique_ptr<ScanSource> packet_source(const std::filesystem::path& path, con
   return std::make_unique<PacketSource>(path, topic, std::move(stream), std::move(decoder), options);
 }
 
-std::unique_ptr<ScanSource> open_capture(const std::filesystem::path& file, const SourceOptions& options) {
-  UdpReader first_packets(file);
-  auto decoder = find_decoder(first_packets, file, options);
-  return packet_source(file, "", std::make_unique<UdpReader>(file), std::move(decoder), options);
+std::unique_ptr<ScanSource> open_captures(const std::filesystem::path& path,
+                                          const std::vector<std::filesystem::path>& files,
+                                          const SourceOptions& options) {
+  const auto open = [&]() -> std::unique_ptr<PacketStream> {
+    if (files.size() == 1) return std::make_unique<UdpReader>(files[0]);
+    return in_turn(files);
+  };
+  auto decoder = find_decoder(*open(), files[0], options);
+  return packet_source(path, "", open(), std::move(decoder), options);
 }
 
 }  // namespace rilo::detail

@@ -101,9 +101,13 @@ RecordedTopic choose_topic(const std::filesystem::path& path, const std::vector<
     throw IoError({path, "", counted(found.size(), "topic") + " of " + kind + ": " + list_of(found), "one",
                    "Choose one with --topic"});
   }
+  const bool has_flat_scans = std::any_of(topics.begin(), topics.end(), [](const RecordedTopic& topic) {
+    return without_msg(topic.type) == "sensor_msgs/LaserScan";
+  });
   throw IoError({path, "", list_of(topics),
                  std::string("a topic of type ") + kKnownTypes + " in ROS 1's or CDR encoding",
-                 "Record the sensor's point clouds (sensor_msgs/PointCloud2)"});
+                 std::string("Record the sensor's point clouds (sensor_msgs/PointCloud2)") +
+                     (has_flat_scans ? "; scans of one plane (LaserScan) do not give a pose in space" : "")});
 }
 
 }  // namespace rilo::detail

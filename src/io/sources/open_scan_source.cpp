@@ -6,6 +6,7 @@
 #include "io/file_bytes.hpp"
 #include "io/folder_files.hpp"
 #include "io/folders/scan_listing.hpp"
+#include "io/packets/captures.hpp"
 #include "io/packets/packet_source.hpp"
 #include "io/ros/recording_source.hpp"
 #include "io/sources/source_wrappers.hpp"
@@ -46,13 +47,17 @@ std::unique_ptr<ScanSource> open_folder(const fs::path& folder, const SourceOpti
     if (auto recording = recording_in_folder(folder)) {
       return detail::open_recording(folder, std::move(recording), options);
     }
+    if (detail::files_with(folder, {".bin", ".pcd", ".ply"}).empty()) {
+      if (const auto captures = detail::captures_in(folder); !captures.empty()) {
+        return detail::open_captures(folder, captures, options);
+      }
+    }
   }
   return detail::open_files(detail::list_folder(folder, options), options);
 }
 
 std::unique_ptr<ScanSource> open_file(const fs::path& file, const SourceOptions& options) {
-  const std::string extension = extension_of(file);
-  if (extension == ".pcap" || extension == ".pcapng") return detail::open_capture(file, options);
+  if (detail::is_capture(file)) return detail::open_captures(file, {file}, options);
   if (auto recording = recording_in_file(file)) return detail::open_recording(file, std::move(recording), options);
   return detail::open_files(detail::list_single_file(file, options), options);
 }

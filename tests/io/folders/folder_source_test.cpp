@@ -100,7 +100,8 @@ TEST(FolderSourceTest, SingleFile) {
   EXPECT_EQ(source->info().kind, "file");
   EXPECT_EQ(source->size(), 1U);
   EXPECT_EQ(marks_of(*source), std::vector<float>{4});
-  expect_io_error([&] { open_scan_source(folder.write("a.csv", "")); }, {"a.csv", "'.csv'", ".bin, .pcd or .ply"});
+  expect_io_error([&] { open_scan_source(folder.write("a.csv", "")); },
+                  {"a.csv", "'.csv'", "a sweep (.bin, .pcd, .ply) or a recording"});
   expect_io_error([&] { open_scan_source(folder / "none"); }, {"none", "no such file or folder"});
   expect_io_error([&] { open_scan_source("/dev/null"); }, {"neither a folder nor a file"});
 }
@@ -119,7 +120,16 @@ TEST(FolderSourceTest, FoldersThatAreNoData) {
   expect_io_error([&] { open_scan_source(folder / "mixed"); }, {"mixed", "2 .bin and 1 .pcd"});
   folder.write("captures/b.pcap", "");
   folder.write("captures/notes.txt", "");
-  expect_io_error([&] { open_scan_source(folder / "captures"); }, {"2 other files", "itself: ", "captures/b.pcap"});
+  expect_io_error([&] { open_scan_source(folder / "captures"); }, {"captures/b.pcap", "libpcap"});
+  folder.write("clouds/0.LAZ", "");
+  folder.write("clouds/1.laz", "");
+  folder.write("clouds/notes", "");
+  expect_io_error([&] { open_scan_source(folder / "clouds"); },
+                  {"3 other files, mostly .laz", "Sweeps in other formats: convert them to .pcd"});
+  folder.write("dumps/000000/cloud.pcd", "");
+  folder.write("dumps/000001/cloud.pcd", "");
+  expect_io_error([&] { open_scan_source(folder / "dumps"); },
+                  {"subfolder 000000/ has 1 .pcd", "of all the subfolders into one folder"});
   folder.write("arrays/000000.npy", "");
   expect_io_error([&] { open_scan_source(folder / "arrays"); },
                   {"1 other file", "numpy.load(\"000000.npy\")", "Python"});

@@ -33,6 +33,23 @@ TEST(FolderStampsTest, StampsFromTheNamesOrTheTimesFile) {
   EXPECT_EQ(open_scan_source(folder / "t")->next()->stamp_ns, 77'500'000'000);
 }
 
+TEST(FolderStampsTest, StampsAmongOtherThingsInTheNames) {
+  const TempDir folder;
+  // As nuScenes names them; the log of another day was earlier.
+  folder.write("n/n008-2018-08-28-16-43-51-0400__LIDAR_TOP__1535489306946930.pcd.bin", bin_of(1));
+  folder.write("n/n015-2018-07-24-11-22-45+0800__LIDAR_TOP__1532402927647951.pcd.bin", bin_of(1));
+  folder.write("n/n015-2018-07-24-11-22-45+0800__LIDAR_TOP__1532402928147847.pcd.bin", bin_of(1));
+  EXPECT_EQ(stamps_of(folder / "n"), (std::vector<std::int64_t>{1'532'402'927'647'951'000, 1'532'402'928'147'847'000,
+                                                                1'535'489'306'946'930'000}));
+  folder.write("c/cloud.1700000000.5.pcd.bin", bin_of(1));
+  EXPECT_EQ(stamps_of(folder / "c"), std::vector<std::int64_t>{1'700'000'000'500'000'000});
+  // Two of them are none, and so is a number that is too short.
+  folder.write("two/1535489306946930_1535489306996930.bin", bin_of(1));
+  EXPECT_TRUE(open_scan_source(folder / "two")->info().stamps_assumed);
+  folder.write("short/scan_153548930694693.bin", bin_of(1));
+  EXPECT_TRUE(open_scan_source(folder / "short")->info().stamps_assumed);
+}
+
 TEST(FolderStampsTest, NamesOfDecimalSecondsInTheOrderOfTime) {
   const TempDir folder;
   for (const char* name : {"1700000000.4234936", "1700000000.523506", "1700000000.6235182", "1700000000.05"}) {

@@ -221,7 +221,7 @@ TEST(PacketSourceTest, AnIncompleteRevolutionIsDroppedAtTheEndsOnly) {
     EXPECT_EQ(lost->current_index(), i);
   }
   EXPECT_FALSE(lost->next());
-  EXPECT_TRUE(has_warning(lost->info(), "dropped 1 incomplete revolutions"));
+  EXPECT_TRUE(has_warning(lost->info(), "dropped 1 incomplete revolution at"));
 }
 
 TEST(PacketSourceTest, HostileBytes) {

@@ -175,6 +175,8 @@ TEST(RecordingTest, SeveralTopics) {
   }
   const fs::path none = folder.write("none.mcap", mcap_bytes({{"/imu", "sensor_msgs/msg/Imu"}}, {}, {}));
   expect_io_error([&] { open_scan_source(none); }, {"/imu", "a topic of type sensor_msgs/PointCloud2"});
+  const fs::path flat = folder.write("flat.mcap", mcap_bytes({{"/scan", "sensor_msgs/msg/LaserScan"}}, {}, {}));
+  expect_io_error([&] { open_scan_source(flat); }, {"/scan", "scans of one plane (LaserScan)"});
 }
 
 TEST(RecordingTest, SplitRecordingsContinue) {

@@ -1,5 +1,6 @@
 #include "session/compensation_trial.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,12 +20,16 @@ namespace {
 
 constexpr std::size_t kEnough = 40;  // compared sweeps
 constexpr std::size_t kLeast = 10;
-constexpr double kRawShare = 0.6;          // better: at least 0.75 of raw sweeps, ...
+constexpr double kRawShare = 0.6;          // better: at least 0.75 of raw sweeps, 0.69 with half the turn at 5 Hz, ...
 constexpr double kCompensatedShare = 0.4;  // ... at most 0.38 of compensated ones, but all of KITTI's
 constexpr double kConesShare = 0.5;        // of the compared sweeps: mostly nearly all, or none
 constexpr double kMostLost = 0.1;          // of the compared sweeps
 constexpr std::size_t kMostSweeps = 300;   // one that stands for longer is not compared
 constexpr std::size_t kBeginning = 3;      // sweeps of a map that is still built with guesses
+
+bool mostly(std::size_t better, std::size_t sweeps) {
+  return sweeps > 0 && static_cast<double>(better) >= kRawShare * static_cast<double>(sweeps);
+}
 
 bool tracked(const SweepResult& result) { return registered(result) || result.status == OdometryStatus::kRecovered; }
 
@@ -35,6 +40,12 @@ struct Fit {
   ConeVerdict cones = ConeVerdict::kNothing;
 };
 
+struct Fits {
+  std::vector<Fit> sweeps;
+  PointTimes times = PointTimes::kNone;
+  std::size_t lost = 0;
+};
+
 /// Which times a sweep can have.
 PointTimes times_for(const Sweep& sweep) {
   if (!sweep.times_s.empty()) return PointTimes::kAuto;
@@ -43,41 +54,64 @@ PointTimes times_for(const Sweep& sweep) {
 }
 
 /// False when it cannot have those times.
-bool give_times(Sweep& sweep, PointTimes times, double period_s) {
+bool give_times(Sweep& sweep, PointTimes times, double turn_s) {
   if (times == PointTimes::kOrder) {
-    sweep.times_s = order_times(sweep.points, period_s).value_or(std::vector<float>{});
+    sweep.times_s = order_times(sweep.points, turn_s).value_or(std::vector<float>{});
   } else if (times == PointTimes::kAzimuth) {
-    sweep.times_s = azimuth_times(sweep.points, period_s, SpinDirection::kClockwise);
+    sweep.times_s = azimuth_times(sweep.points, turn_s, SpinDirection::kClockwise);
   }
   return !sweep.times_s.empty();
 }
 
-/// Of at most `most` sweeps of `source`; with times, until enough moved.
-std::vector<Fit> fits_of(ScanSource& source, const OdometryConfig& config, bool with_times, std::size_t most,
-                         const std::function<bool()>& interrupted, CompensationTrial& trial) {
-  std::vector<Fit> fits;
+/// Sweeps at 5 Hz are those of a slow sensor, or every second one of the usual one.
+std::vector<double> turns_at(double period_s) {
+  constexpr double kTwoUsualS = 0.15;
+  const double turn = detail::turn_s(period_s);
+  return turn > kTwoUsualS ? std::vector{turn, turn / 2} : std::vector{turn};
+}
+
+/// Of at most `most` sweeps of `source`; with times of turns of `turn_s`, until enough moved; 0: without.
+Fits fits_of(ScanSource& source, const OdometryConfig& config, double turn_s, std::size_t most,
+             const std::function<bool()>& interrupted) {
+  Fits fits;
   Odometry odometry(config);
   std::size_t compared = 0;
+  const bool with_times = turn_s > 0;
   try {
-    while (fits.size() < most && compared < kEnough && !(interrupted && interrupted())) {
+    while (fits.sweeps.size() < most && compared < kEnough && !(interrupted && interrupted())) {
       std::optional<Sweep> sweep = source.next();
       if (!sweep) break;
-      const double turn = detail::turn_s(source.info().period_s);
-      if (with_times && fits.empty()) trial.times = times_for(*sweep);
-      if (with_times && !give_times(*sweep, trial.times, turn)) break;
+      if (with_times && fits.sweeps.empty()) fits.times = times_for(*sweep);
+      if (with_times && !give_times(*sweep, fits.times, turn_s)) break;
       if (!with_times) sweep->times_s.clear();
       const SweepResult result = odometry.register_sweep(*sweep);
-      trial.lost += with_times && !fits.empty() && !tracked(result) ? 1 : 0;
-      const bool usable = fits.size() >= kBeginning && registered(result);
-      fits.push_back({usable && (!with_times || moved(result, turn)), result.stats.residual_rms_m});
-      if (!with_times || !fits.back().compared) continue;
-      fits.back().cones = on_beam_cones(*sweep, result.twist);
+      fits.lost += !fits.sweeps.empty() && !tracked(result) ? 1 : 0;
+      const bool usable = fits.sweeps.size() >= kBeginning && registered(result);
+      fits.sweeps.push_back({usable && (!with_times || moved(result, turn_s)), result.stats.residual_rms_m});
+      if (!with_times || !fits.sweeps.back().compared) continue;
+      fits.sweeps.back().cones = on_beam_cones(*sweep, result.twist);
       ++compared;
     }
   } catch (const IoError&) {
     // The run will meet and report it.
   }
   return fits;
+}
+
+/// Of the sweeps that are compared in both.
+CompensationTrial compared(const Fits& with_times, const Fits& other) {
+  CompensationTrial trial;
+  trial.times = with_times.times;
+  trial.lost = with_times.lost;
+  for (std::size_t i = 0; i < std::min(with_times.sweeps.size(), other.sweeps.size()); ++i) {
+    const Fit& fit = with_times.sweeps[i];
+    if (!fit.compared || !other.sweeps[i].compared) continue;
+    ++trial.sweeps;
+    trial.better += fit.residual_rms_m < other.sweeps[i].residual_rms_m ? 1 : 0;
+    trial.on_cones += fit.cones == ConeVerdict::kRaw ? 1 : 0;
+    trial.off_cones += fit.cones == ConeVerdict::kCompensated ? 1 : 0;
+  }
+  return trial;
 }
 
 }  // namespace
@@ -91,7 +125,7 @@ bool CompensationTrial::by_cones(std::size_t so_many) const {
 }
 
 bool CompensationTrial::raw() const {
-  const bool fits = certain() && static_cast<double>(better) >= kRawShare * static_cast<double>(sweeps);
+  const bool fits = certain() && mostly(better, sweeps);
   // Sweeps that were simulated at one instant lie on the cones, too. With azimuth_times() the direction of the turn is
   // a guess, and the fit alone would take KITTI's compensated sweeps for raw.
   return fits && (times == PointTimes::kAzimuth ? by_cones(on_cones) : !by_cones(off_cones));
@@ -104,25 +138,31 @@ bool CompensationTrial::compensated() const {
 
 CompensationTrial try_compensation(const OpenSource& open, std::size_t start, OdometryConfig config,
                                    const std::function<bool()>& interrupted, int times_slower) {
-  CompensationTrial trial;
-  if (!config.preprocess.deskew) return trial;
+  if (!config.preprocess.deskew) return {};
   config.budget.sweep_ms = 0;  // what is cut depends on the machine
-  // One after the other: two maps at once would be the most memory of the whole run.
-  const auto fits = [&](bool with_times, std::size_t most) {
+  const auto opened = [&] {
     auto source = open();
-    if (times_slower > 1) source = detail::with_slower_stamps(std::move(source), times_slower);
-    source->skip(start);
-    return fits_of(*source, config, with_times, most, interrupted, trial);
+    return times_slower > 1 ? detail::with_slower_stamps(std::move(source), times_slower) : std::move(source);
   };
-  const std::vector<Fit> compensated = fits(true, kMostSweeps);
-  const std::vector<Fit> as_read = fits(false, compensated.size());
-  for (std::size_t i = 0; i < as_read.size(); ++i) {
-    if (!compensated[i].compared || !as_read[i].compared) continue;
-    ++trial.sweeps;
-    trial.better += compensated[i].residual_rms_m < as_read[i].residual_rms_m ? 1 : 0;
-    trial.on_cones += compensated[i].cones == ConeVerdict::kRaw ? 1 : 0;
-    trial.off_cones += compensated[i].cones == ConeVerdict::kCompensated ? 1 : 0;
+  // One after the other: two maps at once would be the most memory of the whole run.
+  const auto fits = [&](double turn_s, std::size_t most) {
+    const auto source = opened();
+    source->skip(start);
+    return fits_of(*source, config, turn_s, most, interrupted);
+  };
+  double turn_s = 0;
+  Fits with_times;
+  for (const double turn : turns_at(opened()->info().period_s)) {
+    Fits of_turn = fits(turn, kMostSweeps);
+    const CompensationTrial against = compared(of_turn, with_times);
+    if (turn_s == 0 || mostly(against.better, against.sweeps)) {
+      turn_s = turn;
+      with_times = std::move(of_turn);
+    }
+    if (with_times.times == PointTimes::kAuto) break;
   }
+  CompensationTrial trial = compared(with_times, fits(0, with_times.sweeps.size()));
+  trial.turn_s = turn_s;
   return trial;
 }
 

@@ -150,7 +150,7 @@ class Session::Impl {
     if (result_.trial.times == PointTimes::kAuto || !result_.trial.raw()) return;
     const bool in_order = result_.trial.times == PointTimes::kOrder;
     const auto timed = in_order ? detail::with_order_times : detail::with_azimuth_times;
-    open_ = [open = std::move(open_), timed] { return timed(open()); };
+    open_ = [open = std::move(open_), timed, turn_s = result_.trial.turn_s] { return timed(open(), turn_s); };
     source_ = opened();
   }
 

@@ -132,16 +132,25 @@ TEST(CompensationTrial, RawPointsFitBetter) {
   EXPECT_TRUE(trial.raw());
 }
 
-TEST(CompensationTrial, ATurnIsNotLongerWhereSweepsWereLeftOut) {
-  const std::vector<Sweep> all = drive(false, 48).sweeps;
-  std::vector<Sweep> every_third;
-  for (std::size_t i = 0; i < all.size(); i += 3) every_third.push_back(all[i]);
-  const auto open = [&] { return std::make_unique<SweepsSource>(every_third, 3 * kPeriodS); };
+/// Of every so many sweeps of a drive, which are so far apart.
+std::string times_found(std::size_t every, double period_s) {
+  static const std::vector<Sweep> kAll = drive(false, 48).sweeps;
+  std::vector<Sweep> sweeps;
+  for (std::size_t i = 0; i < kAll.size(); i += every) {
+    sweeps.push_back(kAll[i]);
+    sweeps.back().stamp_ns = std::llround(static_cast<double>(i / every) * period_s * 1e9);
+  }
   SessionOptions options;
   options.point_times = PointTimes::kAuto;
-  const SessionResult run = Session(open, options).run();
+  const SessionResult run = Session([&] { return std::make_unique<SweepsSource>(sweeps, period_s); }, options).run();
   EXPECT_TRUE(run.trial.raw());
-  EXPECT_EQ(run.source.point_times, "order of the points, period 0.100000 s");
+  return run.source.point_times;
+}
+
+TEST(CompensationTrial, ATurnIsNotLongerWhereSweepsWereLeftOut) {
+  EXPECT_EQ(times_found(3, 0.3), "order of the points, period 0.100000 s");
+  EXPECT_EQ(times_found(2, 0.2), "order of the points, period 0.100000 s");
+  EXPECT_EQ(times_found(1, 0.2), "order of the points, period 0.200000 s") << "a sensor at 5 Hz";
 }
 
 TEST(CompensationTrial, CompensatedOnesDoNot) {

@@ -41,6 +41,7 @@ struct CompensationTrial {
   std::size_t on_cones = 0;   ///< of these, raw by the cones
   std::size_t off_cones = 0;  ///< of these, compensated by the cones
   std::size_t lost = 0;  ///< with the times, or where a map had to begin again: what fits a wrong path says nothing
+  double turn_s = 0;     ///< how long the sensor turns for a sweep, of the times that were tried
 
   /// At least ten sweeps were compared, and hardly any was lost.
   bool certain() const;

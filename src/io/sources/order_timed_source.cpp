@@ -19,17 +19,17 @@ std::vector<float> times_by_index(std::size_t points, double period_s) {
 
 class OrderTimedSource final : public WrappedSource {
  public:
-  using WrappedSource::WrappedSource;
+  OrderTimedSource(std::unique_ptr<ScanSource> inner, std::optional<double> turn_s)
+      : WrappedSource(std::move(inner)), turn_s_(turn_s.value_or(detail::turn_s(inner_->info().period_s))) {}
 
   std::optional<Sweep> next() override {
     std::optional<Sweep> sweep = inner_->next();
     if (!sweep || sweep->points.empty()) return sweep;
-    const double turn = turn_s(inner_->info().period_s);
-    if (auto times = order_times(sweep->points, turn)) {
+    if (auto times = order_times(sweep->points, turn_s_)) {
       sweep->times_s = std::move(*times);
       in_order_ = true;
     } else if (in_order_) {
-      sweep->times_s = times_by_index(sweep->points.size(), turn);
+      sweep->times_s = times_by_index(sweep->points.size(), turn_s_);
     } else {
       throw IoError(
           {inner_->current_name(), "", "points that do not lie in the order in which a sensor that turns measured them",
@@ -41,20 +41,21 @@ class OrderTimedSource final : public WrappedSource {
   SourceInfo info() const override {
     SourceInfo info = inner_->info();
     info.has_point_times = true;
-    info.point_times = "order of the points, period " + std::to_string(turn_s(info.period_s)) + " s";
-    note_left_out(info.period_s, info.warnings);
+    info.point_times = "order of the points, period " + std::to_string(turn_s_) + " s";
+    note_left_out(info.period_s, turn_s_, info.warnings);
     return info;
   }
 
  private:
+  double turn_s_;
   // As a sweep has shown; a later one that does not, where most of it is covered, is taken to be.
   bool in_order_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<ScanSource> with_order_times(std::unique_ptr<ScanSource> inner) {
-  return std::make_unique<OrderTimedSource>(std::move(inner));
+std::unique_ptr<ScanSource> with_order_times(std::unique_ptr<ScanSource> inner, std::optional<double> turn_s) {
+  return std::make_unique<OrderTimedSource>(std::move(inner), turn_s);
 }
 
 }  // namespace rilo::detail

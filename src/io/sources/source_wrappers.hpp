@@ -41,14 +41,13 @@ void correct_elevation(std::vector<Eigen::Vector3f>& points, double offset_deg);
 /// Applies correct_elevation to every sweep of `inner` and says so in info().
 std::unique_ptr<ScanSource> with_elevation_correction(std::unique_ptr<ScanSource> inner, double offset_deg);
 
-/// Gives every sweep of `inner` the times of order_times(), over a turn at the period of `inner`, and says so in
+/// Gives every sweep of `inner` the times of order_times() over `turn_s`, by default that of its period, and says so in
 /// info(). Its next() throws IoError until a sweep lies in order; one that does not after that is timed by the places
 /// of its points.
-std::unique_ptr<ScanSource> with_order_times(std::unique_ptr<ScanSource> inner);
+std::unique_ptr<ScanSource> with_order_times(std::unique_ptr<ScanSource> inner, std::optional<double> turn_s = {});
 
-/// Gives every sweep of `inner` the times of azimuth_times(), clockwise, over a turn at the period of `inner`, and says
-/// so in info().
-std::unique_ptr<ScanSource> with_azimuth_times(std::unique_ptr<ScanSource> inner);
+/// Gives every sweep of `inner` the times of azimuth_times(), clockwise, over `turn_s` likewise, and says so in info().
+std::unique_ptr<ScanSource> with_azimuth_times(std::unique_ptr<ScanSource> inner, std::optional<double> turn_s = {});
 
 /// Data without stamps, whose sweeps are taken to be so many times as far apart as was assumed.
 std::unique_ptr<ScanSource> with_slower_stamps(std::unique_ptr<ScanSource> inner, int times);

@@ -28,13 +28,12 @@ double turn_s(double period_s) {
   return period_s <= kSlowestS ? period_s : period_s / std::round(period_s / kUsualS);
 }
 
-void note_left_out(double period_s, std::vector<std::string>& warnings) {
-  const double turn = turn_s(period_s);
-  if (turn == period_s) return;
-  warnings.push_back(fmt::format(
-      "sweeps are {:.3g} s apart, longer than sensors turn: some were left out, and the times of points are "
-      "those of a turn of {:.3g} s; times in seconds in the data would say it exactly",
-      period_s, turn));
+void note_left_out(double period_s, double turn_s, std::vector<std::string>& warnings) {
+  if (turn_s == period_s) return;
+  warnings.push_back(
+      fmt::format("sweeps are {:.3g} s apart, and a turn is taken to last {:.3g} s: some were left out; times of the "
+                  "points in seconds, in the data, would say it exactly",
+                  period_s, turn_s));
 }
 
 void note_odd_period(const std::string& of, SourceInfo& info) {

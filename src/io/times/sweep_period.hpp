@@ -18,8 +18,8 @@ std::optional<double> mean_period_s(const std::vector<std::int64_t>& stamps);
 /// where sweeps are farther apart some were left out, and a turn is taken for the whole share nearest to 0.1 s.
 double turn_s(double period_s);
 
-/// Adds a warning where turn_s() is not the period: the times of points that it gives are a guess.
-void note_left_out(double period_s, std::vector<std::string>& warnings);
+/// Adds a warning where sweeps are farther apart than a turn: the times of points are a guess then.
+void note_left_out(double period_s, double turn_s, std::vector<std::string>& warnings);
 
 /// Warns of a period that no LiDAR has: its stamps, `of` something, are in another unit.
 void note_odd_period(const std::string& of, SourceInfo& info);

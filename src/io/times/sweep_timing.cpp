@@ -116,7 +116,7 @@ std::vector<std::string> SweepTiming::warnings() const {
   }
   const auto& convention = decoder_.convention();
   const bool of_a_turn = from_ == PointTimes::kAzimuth || (convention && convention->unit == PointTimeUnit::kFraction);
-  if (of_a_turn) note_left_out(period_s_, warnings);
+  if (of_a_turn) note_left_out(period_s_, turn_s(period_s_), warnings);
   if (!decoder_.warning().empty()) warnings.push_back(decoder_.warning());
   return warnings;
 }

@@ -12,7 +12,7 @@ TEST(TurnTest, IsThePeriodUpTo250Milliseconds) {
   for (const double period_s : {0.05, 0.1, 0.1036, 0.2, 0.25}) {
     EXPECT_EQ(detail::turn_s(period_s), period_s);
     std::vector<std::string> warnings;
-    detail::note_left_out(period_s, warnings);
+    detail::note_left_out(period_s, period_s, warnings);
     EXPECT_TRUE(warnings.empty());
   }
 }
@@ -23,10 +23,10 @@ TEST(TurnTest, IsTheShareOfALongerPeriodNearestTo100Milliseconds) {
   EXPECT_DOUBLE_EQ(detail::turn_s(0.5), 0.1);
   EXPECT_DOUBLE_EQ(detail::turn_s(1.04), 0.104);
   std::vector<std::string> warnings;
-  detail::note_left_out(0.3107, warnings);
+  detail::note_left_out(0.3107, detail::turn_s(0.3107), warnings);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("sweeps are 0.311 s apart"), std::string::npos) << warnings[0];
-  EXPECT_NE(warnings[0].find("a turn of 0.104 s"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("a turn is taken to last 0.104 s"), std::string::npos) << warnings[0];
 }
 
 TEST(TurnTest, OfSourcesThatTimeThePoints) {

@@ -236,7 +236,7 @@ TEST(WrongTimesOfDrivesTest, FractionsOfAThinnedTopic) {
   const TempDir folder;
   const auto source = recording(folder, sweeps);
   EXPECT_FLOAT_EQ(source->next()->times_s[500], 0.05F);
-  EXPECT_TRUE(has_warning(source->info(), "a turn of 0.1 s"));
+  EXPECT_TRUE(has_warning(source->info(), "a turn is taken to last 0.1 s"));
   const TempDir other;
   const auto usual = recording(other, drive(4, [](std::size_t, float part) { return part; }));
   EXPECT_FLOAT_EQ(usual->next()->times_s[500], 0.05F);

@@ -62,12 +62,16 @@ std::optional<std::int64_t> parse_date(std::string_view text) {
 std::optional<std::int64_t> parse_long_stamp(std::string_view text) {
   constexpr std::size_t kNanosecondDigits = 19;
   constexpr std::size_t kMicrosecondDigits = 16;
+  constexpr std::size_t kMillisecondDigits = 13;
   constexpr std::size_t kSecondDigits = 9;
   if (all_digits(text)) {
-    if (text.size() == kNanosecondDigits) return parse_integer(text);
-    const auto microseconds = text.size() == kMicrosecondDigits ? parse_integer(text) : std::nullopt;
+    std::int64_t unit_ns = 0;
+    if (text.size() == kNanosecondDigits || (text.size() + 1 == kNanosecondDigits && text.front() != '0')) unit_ns = 1;
+    if (text.size() == kMicrosecondDigits) unit_ns = 1'000;
+    if (text.size() == kMillisecondDigits && text.front() == '1') unit_ns = 1'000'000;
+    const auto units = unit_ns > 0 ? parse_integer(text) : std::nullopt;
     std::int64_t nanoseconds = 0;
-    if (!microseconds || __builtin_mul_overflow(*microseconds, 1000, &nanoseconds)) return std::nullopt;
+    if (!units || __builtin_mul_overflow(*units, unit_ns, &nanoseconds)) return std::nullopt;
     return nanoseconds;
   }
   const std::size_t point = text.find('.');

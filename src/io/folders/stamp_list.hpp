@@ -9,8 +9,9 @@
 
 namespace rilo::detail {
 
-/// Whole stamps as data sets write them: 19 digits are ns, 16 are µs, decimals with 9 digits or more before the point
-/// are seconds.
+/// Whole stamps as data sets write them: 19 digits are ns (18 without a zero in front, too: Argoverse), 16 are µs, 13
+/// of which the first is 1 are ms (of the years 2001 to 2033; other numbers have zeros in front), decimals with 9
+/// digits or more before the point are seconds.
 std::optional<std::int64_t> parse_long_stamp(std::string_view text);
 
 /// Dates. Blank lines are skipped. @throws IoError with the line.

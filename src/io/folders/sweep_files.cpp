@@ -26,10 +26,27 @@ std::string name_of(const fs::path& file) {
   return (sweep_format(stem).empty() ? stem : stem.stem()).string();
 }
 
+constexpr const char* kDigits = "0123456789";
+
+// Newer College has cloud_1583836591_182590976.pcd: with a point between seconds and ns.
+std::string with_decimals(std::string name) {
+  constexpr std::size_t kSecondDigits = 10;
+  constexpr std::size_t kNanosecondDigits = 9;
+  const auto digits_from = [&](std::size_t begin) {
+    return std::min(name.find_first_not_of(kDigits, begin), name.size()) - begin;
+  };
+  for (std::size_t begin = name.find_first_of(kDigits); begin < name.size();) {
+    const std::size_t end = begin + digits_from(begin);
+    const bool divided = end < name.size() && (name[end] == '_' || name[end] == '-');
+    if (end - begin == kSecondDigits && divided && digits_from(end + 1) == kNanosecondDigits) name[end] = '.';
+    begin = name.find_first_of(kDigits, end);
+  }
+  return name;
+}
+
 // The name, or the one part of it that is a stamp: nuScenes has LOG__LIDAR_TOP__1532402927647951.pcd.bin.
 std::optional<std::int64_t> stamp_in_name(const fs::path& file) {
-  constexpr const char* kDigits = "0123456789";
-  const std::string name = name_of(file);
+  const std::string name = with_decimals(name_of(file));
   std::optional<std::int64_t> found;
   for (std::size_t begin = name.find_first_of(kDigits); begin < name.size();) {
     const std::size_t end = std::min(name.find_first_not_of("0123456789.", begin), name.size());

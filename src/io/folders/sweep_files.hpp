@@ -25,7 +25,7 @@ inline constexpr const char* kOtherFormats =
 /// bin, pcd or ply by the extension, whatever its case; empty for other files.
 std::string sweep_format(const std::filesystem::path& file);
 
-/// Stamps of files named after them, alone or among other things: 19 digits are ns, 16 are µs, decimals are seconds.
+/// Stamps of files named after them, alone or among other things: 19 digits are ns, 16 µs, 13 ms, decimals seconds.
 /// Empty unless each file has one and they increase.
 std::vector<std::int64_t> stamps_from_names(const std::vector<std::filesystem::path>& files);
 

@@ -43,6 +43,13 @@ TEST(FolderStampsTest, StampsAmongOtherThingsInTheNames) {
                                                                 1'535'489'306'946'930'000}));
   folder.write("c/cloud.1700000000.5.pcd.bin", bin_of(1));
   EXPECT_EQ(stamps_of(folder / "c"), std::vector<std::int64_t>{1'700'000'000'500'000'000});
+  folder.write("nc/cloud_1583836591_182590976.pcd", "");
+  folder.write("nc/cloud_1583836591_082590976.pcd", "");
+  EXPECT_NEAR(open_scan_source(folder / "nc")->info().period_s, 0.1, 1e-9);
+  folder.write("av/PC_315968385323560000.bin", bin_of(1));
+  EXPECT_EQ(stamps_of(folder / "av"), std::vector<std::int64_t>{315'968'385'323'560'000});
+  folder.write("us/1583836591_182590.bin", bin_of(1));
+  EXPECT_TRUE(open_scan_source(folder / "us")->info().stamps_assumed);
   // Two of them are none, and so is a number that is too short.
   folder.write("two/1535489306946930_1535489306996930.bin", bin_of(1));
   EXPECT_TRUE(open_scan_source(folder / "two")->info().stamps_assumed);
@@ -201,8 +208,12 @@ TEST(FolderStampsTest, WithoutStampsNumbersTellWhichSweepsAreMissing) {
   EXPECT_EQ(steps_of({"01.bin", "1.bin", "3.bin"}), (Steps{1, 1}));
 }
 
-TEST(StampListTest, MicrosecondsThatDoNotFitAreNone) {
+TEST(StampListTest, DigitsTellTheUnit) {
+  EXPECT_EQ(detail::parse_long_stamp("1700000000123456789"), 1'700'000'000'123'456'789);
   EXPECT_EQ(detail::parse_long_stamp("1700000000123456"), 1'700'000'000'123'456'000);
+  EXPECT_EQ(detail::parse_long_stamp("1700000000123"), 1'700'000'000'123'000'000);
+  EXPECT_FALSE(detail::parse_long_stamp("0000000000123")) << "a number";
+  EXPECT_FALSE(detail::parse_long_stamp("1700000000"));
   EXPECT_FALSE(detail::parse_long_stamp("9999999999999999"));
 }
 

@@ -112,6 +112,11 @@ void add_threshold(KeyVisitor& keys, AdaptiveThresholdConfig& c) {
             0.001, 100);
   keys.real({"floor_m", "m", "lower bound of sigma_th", "experiment: sigma_th at least 3 cm"}, c.floor_m, 0.001, 100);
   keys.real({"ceiling_m", "m", "upper bound of sigma_th; at least floor_m", kNotTuned}, c.ceiling_m, 0.001, 100);
+  keys.real(
+      {"narrowing", "",
+       "once a registration has converged, sigma_th is divided by this until it is floor_m; 1: off, as in the paper",
+       "experiment: sigma_th narrows"},
+      c.narrowing, 1, 100);
   keys.real({"decay", "", "sigma_decay of the motion weight gamma", "III-C: 1.5"}, c.decay, 0.001, 1000);
   keys.real({"rotation_scale_m", "m", "sigma_max: largest share of the rotation in the error",
              "III-C, without a value; not tuned"},

@@ -1,5 +1,8 @@
 #include "odometry/pose_search.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "odometry/optimum.hpp"
 #include "registration/closeness.hpp"
 
@@ -24,8 +27,27 @@ Registration PoseSearch::to_map(const MotionState& start, const MotionPrior& pri
   found.icp = adaptive_icp(parts_.prepared.source, parts_.map.map(), start, prior, sigma_th_m, icp, deadline);
   found.T_init = start.T_odom_lidar;
   found.sigma_th_m = sigma_th_m;
+  narrow(found, prior, icp, deadline);
   rate(found, parts_.map.map());
   return found;
+}
+
+// A wide scale leads to where the prediction did not; once there, what moves and what is no plane only draws at the
+// pose.
+void PoseSearch::narrow(Registration& found, const MotionPrior& prior, AdaptiveIcpConfig icp,
+                        const Deadline& deadline) const {
+  const AdaptiveThresholdConfig& threshold = parts_.config.threshold;
+  if (!icp.adaptive || threshold.narrowing <= 1.0) return;
+  icp.coarse_stride = 1;
+  // Less than half a step is not worth its iterations.
+  const double narrow_enough_m = std::sqrt(threshold.narrowing) * threshold.floor_m;
+  while (found.sigma_th_m > narrow_enough_m && found.icp.termination == IcpTermination::kConverged) {
+    found.sigma_th_m = std::max(found.sigma_th_m / threshold.narrowing, threshold.floor_m);
+    const int iterations = found.icp.iterations;
+    found.icp =
+        adaptive_icp(parts_.prepared.source, parts_.map.map(), found.icp.state, prior, found.sigma_th_m, icp, deadline);
+    found.icp.iterations += iterations;
+  }
 }
 
 Registration PoseSearch::from(const MotionState& start) const {

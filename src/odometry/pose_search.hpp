@@ -30,6 +30,8 @@ class PoseSearch {
   LocalMap map_of(const TimedCloud& cloud, const MotionState& state) const;
 
  private:
+  void narrow(Registration& found, const MotionPrior& prior, AdaptiveIcpConfig icp, const Deadline& deadline) const;
+
   const RegistrationParts& parts_;
   Deadline end_;
   AdaptiveIcpConfig icp_;

@@ -128,6 +128,7 @@ TEST_F(PoseSearches, QualityIsScoreTimesShareOverDistance) {
 
 // A car moves off: the error of the prediction widens the threshold, and points beside the planes count more.
 TEST_F(PoseSearches, QualityIsThatOfThePoseWhateverTheThreshold) {
+  config_.threshold.narrowing = 1.0;
   map_road(kIrregular);
   see_road(1.0, kIrregular);
   for (std::size_t i = 0; i < prepared_.source.points.size(); i += 4) prepared_.source.points[i].y() += 0.25F;
@@ -139,6 +140,31 @@ TEST_F(PoseSearches, QualityIsThatOfThePoseWhateverTheThreshold) {
   const Registration wide = with(0.2);
   EXPECT_GT(wide.icp.residual_rms_m, 2.0 * narrow.icp.residual_rms_m);
   EXPECT_NEAR(wide.quality, narrow.quality, 0.1 * narrow.quality);
+}
+
+// What has moved meanwhile draws at the pose while the scale of the weights is wide.
+TEST_F(PoseSearches, OnceConvergedTheScaleGoesDownToThatOfTheNoise) {
+  map_road(kIrregular);
+  see_road(1.0, kIrregular);
+  for (std::size_t i = 0; i < prepared_.source.points.size(); i += 4) prepared_.source.points[i].y() += 0.25F;
+  const auto found_with = [&](double narrowing, double sigma_th_m) {
+    config_.threshold.narrowing = narrowing;
+    const RegistrationParts all = parts();
+    return PoseSearch(all).to_map(predicted(), tracker_.prior(std::nullopt), sigma_th_m, config_.icp, {});
+  };
+  const auto aside_m = [](const Registration& found) {
+    return std::abs(found.icp.state.T_odom_lidar.translation().y());
+  };
+  const Registration wide = found_with(1.0, 0.4);
+  const Registration narrow = found_with(4.0, 0.4);
+  EXPECT_EQ(wide.sigma_th_m, 0.4);
+  EXPECT_EQ(narrow.sigma_th_m, config_.threshold.floor_m) << "0.4, 0.1, 0.03 m";
+  EXPECT_GT(narrow.icp.iterations, wide.icp.iterations);
+  EXPECT_GT(aside_m(wide), 0.02);
+  EXPECT_LT(aside_m(narrow), 0.3 * aside_m(wide));
+  EXPECT_EQ(found_with(4.0, 0.06).sigma_th_m, 0.06) << "half a step is not worth it";
+  config_.icp.adaptive = false;
+  EXPECT_EQ(found_with(4.0, 0.4).sigma_th_m, 0.4) << "the scale weighs nothing";
 }
 
 TEST_F(PoseSearches, ASweepOfAnotherTimeIsFoundOnThePath) {
@@ -219,6 +245,7 @@ TEST_F(PoseSearches, WhereNothingShowsTheWayNoOtherPlaceIsTried) {
 }
 
 TEST_F(PoseSearches, AfterALossWhatWasFoundHoldsWithinTheUsualGate) {
+  config_.threshold.narrowing = 1.0;
   map_road(kIrregular);
   see_road(1.0, kIrregular);
   tracker_.lose(predicted(), std::nullopt);

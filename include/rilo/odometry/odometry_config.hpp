@@ -47,6 +47,7 @@ struct AdaptiveThresholdConfig {
   double initial_m = 0.3;  ///< σ_th before any error is known
   double floor_m = 0.03;
   double ceiling_m = 2.0;
+  double narrowing = 4.0;         ///< a registration goes on with σ_th over this until it is floor_m; 1: off
   double decay = 1.5;             ///< σ_decay of the motion weight γ
   double rotation_scale_m = 1.0;  ///< σ_max: largest share of the rotation in the error
   double rotation_gain = 2.0;     ///< β of tanh(β θ), 1/rad

@@ -138,7 +138,7 @@ std::string times_found(std::size_t every, double period_s) {
   std::vector<Sweep> sweeps;
   for (std::size_t i = 0; i < kAll.size(); i += every) {
     sweeps.push_back(kAll[i]);
-    sweeps.back().stamp_ns = std::llround(static_cast<double>(i / every) * period_s * 1e9);
+    sweeps.back().stamp_ns = std::llround(static_cast<double>(sweeps.size()) * period_s * 1e9);
   }
   SessionOptions options;
   options.point_times = PointTimes::kAuto;

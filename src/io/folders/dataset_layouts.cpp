@@ -11,6 +11,7 @@
 #include "io/folders/scan_listing.hpp"
 #include "io/folders/stamp_list.hpp"
 #include "io/text.hpp"
+#include "io/times/sweep_period.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/io/trajectory_files.hpp"
 

@@ -50,8 +50,9 @@ class VelodyneDecoder final : public PacketDecoder {
       find_rate(payload, block, group);
       // To go back across the rear and over it again is no revolution.
       if (arrival == PacketOrder::Arrival::kNext) look_for_the_rear(azimuth, done);
-      const auto firings_before = static_cast<double>(block / group * model_.firings_a_block);
-      add_block(bytes, is_lower(payload, block), azimuth, stamp_ns, firings_before * model_.firing_us + gaps_us);
+      const std::size_t firings_before = block / group * model_.firings_a_block;
+      add_block(bytes, is_lower(payload, block), azimuth, stamp_ns,
+                static_cast<double>(firings_before) * model_.firing_us + gaps_us);
     }
   }
 

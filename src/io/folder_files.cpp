@@ -54,16 +54,21 @@ void sort_naturally(std::vector<fs::path>& files) {
 
 bool is_hidden(const fs::path& file) { return file.filename().string().front() == '.'; }
 
-std::vector<fs::path> files_with(const fs::path& folder, std::initializer_list<std::string_view> extensions) {
+std::vector<fs::path> files_that(const fs::path& folder, const std::function<bool(const fs::path&)>& wanted) {
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (is_hidden(entry->path())) continue;
-    const std::string extension = lower_case(entry->path().extension().string());
-    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) files.push_back(entry->path());
+    if (!is_hidden(entry->path()) && wanted(entry->path())) files.push_back(entry->path());
   }
   sort_naturally(files);
   return files;
+}
+
+std::vector<fs::path> files_with(const fs::path& folder, std::initializer_list<std::string_view> extensions) {
+  return files_that(folder, [&](const fs::path& file) {
+    const std::string extension = lower_case(file.extension().string());
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+  });
 }
 
 }  // namespace rilo::detail

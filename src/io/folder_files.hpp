@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -19,8 +20,11 @@ void sort_naturally(std::vector<std::filesystem::path>& files);
 /// macOS puts ._NAME beside NAME where a disk cannot hold its attributes: never data.
 bool is_hidden(const std::filesystem::path& file);
 
-/// What lies in `folder` with one of the extensions (lower case), in natural order, hidden files left out; nothing
-/// where it cannot be listed.
+/// What lies in `folder` and is `wanted`, in natural order, hidden files left out; nothing where it cannot be listed.
+std::vector<std::filesystem::path> files_that(const std::filesystem::path& folder,
+                                              const std::function<bool(const std::filesystem::path&)>& wanted);
+
+/// The same with one of the extensions (lower case).
 std::vector<std::filesystem::path> files_with(const std::filesystem::path& folder,
                                               std::initializer_list<std::string_view> extensions);
 

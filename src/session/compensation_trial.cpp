@@ -22,6 +22,7 @@ constexpr std::size_t kEnough = 40;  // compared sweeps
 constexpr std::size_t kLeast = 10;
 constexpr double kRawShare = 0.6;          // better: at least 0.75 of raw sweeps, 0.69 with half the turn at 5 Hz, ...
 constexpr double kCompensatedShare = 0.4;  // ... at most 0.38 of compensated ones, but all of KITTI's
+constexpr double kTwoUsualTurnsS = 0.15;   // at 5 Hz sweeps are all of a slow sensor, or every second of the usual one
 constexpr double kConesShare = 0.5;        // of the compared sweeps: mostly nearly all, or none
 constexpr double kMostLost = 0.1;          // of the compared sweeps
 constexpr std::size_t kMostSweeps = 300;   // one that stands for longer is not compared
@@ -61,13 +62,6 @@ bool give_times(Sweep& sweep, PointTimes times, double turn_s) {
     sweep.times_s = azimuth_times(sweep.points, turn_s, SpinDirection::kClockwise);
   }
   return !sweep.times_s.empty();
-}
-
-/// Sweeps at 5 Hz are those of a slow sensor, or every second one of the usual one.
-std::vector<double> turns_at(double period_s) {
-  constexpr double kTwoUsualS = 0.15;
-  const double turn = detail::turn_s(period_s);
-  return turn > kTwoUsualS ? std::vector{turn, turn / 2} : std::vector{turn};
 }
 
 /// Of at most `most` sweeps of `source`; with times of turns of `turn_s`, until enough moved; 0: without.
@@ -145,23 +139,22 @@ CompensationTrial try_compensation(const OpenSource& open, std::size_t start, Od
     return times_slower > 1 ? detail::with_slower_stamps(std::move(source), times_slower) : std::move(source);
   };
   // One after the other: two maps at once would be the most memory of the whole run.
-  const auto fits = [&](double turn_s, std::size_t most) {
-    const auto source = opened();
+  const auto fits = [&](std::unique_ptr<ScanSource> source, double turn_s, std::size_t most) {
     source->skip(start);
     return fits_of(*source, config, turn_s, most, interrupted);
   };
-  double turn_s = 0;
-  Fits with_times;
-  for (const double turn : turns_at(opened()->info().period_s)) {
-    Fits of_turn = fits(turn, kMostSweeps);
-    const CompensationTrial against = compared(of_turn, with_times);
-    if (turn_s == 0 || mostly(against.better, against.sweeps)) {
-      turn_s = turn;
-      with_times = std::move(of_turn);
+  auto source = opened();
+  double turn_s = detail::turn_s(source->info().period_s);
+  Fits with_times = fits(std::move(source), turn_s, kMostSweeps);
+  if (turn_s > kTwoUsualTurnsS && with_times.times != PointTimes::kAuto) {
+    Fits halved = fits(opened(), turn_s / 2, kMostSweeps);
+    const CompensationTrial against = compared(halved, with_times);
+    if (mostly(against.better, against.sweeps)) {
+      turn_s /= 2;
+      with_times = std::move(halved);
     }
-    if (with_times.times == PointTimes::kAuto) break;
   }
-  CompensationTrial trial = compared(with_times, fits(0, with_times.sweeps.size()));
+  CompensationTrial trial = compared(with_times, fits(opened(), 0, with_times.sweeps.size()));
   trial.turn_s = turn_s;
   return trial;
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -112,15 +112,7 @@ bool is_capture(const fs::path& file) {
   return is_file(file) && begins_as_capture(file);
 }
 
-std::vector<fs::path> captures_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (!is_hidden(entry->path()) && is_capture(entry->path())) files.push_back(entry->path());
-  }
-  sort_naturally(files);
-  return files;
-}
+std::vector<fs::path> captures_in(const fs::path& folder) { return files_that(folder, is_capture); }
 
 std::unique_ptr<PacketStream> in_turn(const std::vector<fs::path>& files) {
   return std::make_unique<CapturesInTurn>(files);

@@ -37,7 +37,7 @@ void expect_measured(const Sweep& sweep, std::size_t i, double clockwise_deg, do
 
 // 16 lasers fire every 55.296 µs, 2.304 µs apart, and twice a block, in which the sensor turns by 0.2°.
 TEST(VelodyneDecoderTest, EveryFiringHasItsAngleAndTime) {
-  std::vector<std::string> packets{velodyne_packet(18000, 20, 0, 0x22), velodyne_packet(18240, 0, 1327, 0x22)};
+  std::vector<std::string> packets{velodyne_packet(18000, 20, 0, 0x22), velodyne_packet(18240, 400, 1327, 0x22)};
   packets[1][501] = '\xDD';  // a lower bank, which this sensor does not have
   const auto done = revolutions_in(packets);
   ASSERT_EQ(done.size(), 1U);
@@ -46,7 +46,8 @@ TEST(VelodyneDecoderTest, EveryFiringHasItsAngleAndTime) {
   expect_measured(sweep, (3 * 2 + 1) * 16 + 5, 180.6 + 0.1 + 0.2 * 5 / 48, 7 * 55.296 + 5 * 2.304);
   // Of the last block, as far as in the one before.
   expect_measured(sweep, 23 * 16 + 15, 182.2 + 0.1 + 0.2 * 15 / 48, 23 * 55.296 + 15 * 2.304);
-  expect_measured(sweep, 384 + 3 * 16, 182.4, 1327 + 3 * 55.296);
+  // Steps of 4° are what the sensor does not send: within a block the rate of before counts, between them it goes on.
+  expect_measured(sweep, 384 + 3 * 16, 182.4 + 4 + 0.1, 1327 + 4 / 0.2 * 110.592 + 55.296);
   for (const std::uint16_t ring : sweep.rings) EXPECT_LT(ring, 16);
 }
 

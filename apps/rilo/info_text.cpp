@@ -94,9 +94,11 @@ std::string info_text(const nlohmann::json& j, const std::string& options) {
   const auto all = count(directions["all_sweeps_deg"]);
   text += fmt::format("directions    {}° in one sweep, {}° in all\n", one, all);
   if (static_cast<double>(one) < kPartOfRevolution * static_cast<double>(all)) {
-    text +=
-        "warning       a sweep seems to hold part of a revolution: let the driver send whole ones, since neighbouring "
-        "parts\n              see different surroundings and begin map after map\n";
+    text += fmt::format(
+        "warning       a sweep seems to hold part of a revolution, and neighbouring parts see different surroundings: "
+        "join them\n              (--parts {}; --rate then says how many parts a second come where the data have no "
+        "stamps)\n",
+        (all + one / 2) / std::max<std::size_t>(one, 1));
   }
   const auto& stamps = j["stamps"];
   const bool assumed = stamps["assumed"].get<bool>();

@@ -57,6 +57,11 @@ void add_source_flags(CLI::App& command, SourceRequest& flags) {
   command.add_option("--rate", options.rate_hz, "sweeps per second of data without stamps")
       ->check(number_within(0.001, 1000))
       ->default_str(fmt::format("{:g}", options.assumed_rate_hz()));
+  command
+      .add_option("--parts", options.parts,
+                  "messages or files that hold a sweep in parts and are joined to one; 1: none are. Default: found "
+                  "out where they come faster than 13 a second")
+      ->check(number_within(1, SourceOptions::kMostParts));
   command.add_flag_callback(
       "--skip-bad-sweeps", [&options] { options.on_bad_sweep = OnBadSweep::kSkip; },
       "skip sweeps that cannot be read (counted in the results) instead of stopping");

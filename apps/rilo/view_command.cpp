@@ -53,6 +53,7 @@ SourceOptions source_options(const ViewFlags& flags, const RunMetrics& metrics) 
   if (options.elevation_correction_deg == 0.0) {
     options.elevation_correction_deg = metrics.elevation_correction_deg.value_or(0);
   }
+  if (options.parts == 0) options.parts = static_cast<int>(metrics.parts);
   const std::string& times = metrics.point_times;
   if (options.point_times == PointTimes::kAuto && times.starts_with("azimuth")) {
     options.point_times = PointTimes::kAzimuth;

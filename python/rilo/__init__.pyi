@@ -179,6 +179,7 @@ def open(
     spin: Literal["clockwise", "counter-clockwise"] = "clockwise",
     elevation_correction_deg: float = 0.0,
     rate: Optional[float] = None,
+    parts: int = 0,
     skip_bad_sweeps: bool = False,
 ) -> ScanSource: ...
 def run(
@@ -204,6 +205,7 @@ def run(
     spin: Literal["clockwise", "counter-clockwise"] = "clockwise",
     elevation_correction_deg: float = 0.0,
     rate: Optional[float] = None,
+    parts: int = 0,
     skip_bad_sweeps: bool = False,
 ) -> RunResult: ...
 

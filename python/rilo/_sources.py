@@ -18,6 +18,7 @@ _DEFAULTS = {
     "spin": "clockwise",
     "elevation_correction_deg": 0.0,
     "rate": None,
+    "parts": 0,
     "skip_bad_sweeps": False,
 }
 
@@ -37,6 +38,8 @@ def _checked(name, value):
         return value if isinstance(value, str) else _refuse(name, value, "text")
     if isinstance(default, bool):
         return bool(value) if value in (True, False) else _refuse(name, value, "True or False")
+    if isinstance(default, int):
+        return _whole_number(name, value)
     return value if isinstance(value, Real) else _refuse(name, value, "a number")
 
 
@@ -80,6 +83,8 @@ def open(path, **options):
     elevation_correction_deg: added to every point's elevation angle; KITTI's HDL-64E needs 0.205.
     rate:                     sweeps per second of data without stamps. None: 10, and rilo.run() tries whether they are
                               fewer.
+    parts:                    files or messages that hold a sweep in parts and are joined to one; 1: none are. 0: found
+                              out where they come faster than 13 a second.
     skip_bad_sweeps:          skip sweeps that cannot be read instead of raising.
 
     Raises IoError when the data cannot be read, ValueError for an option that makes no sense.

@@ -44,7 +44,7 @@ SourceOptions options_of(const std::string& topic, const std::filesystem::path& 
                          const std::string& bin_fields, const std::string& point_times,
                          const std::string& point_time_unit, const std::string& point_time_reference,
                          const std::string& time_field, const std::string& spin, double elevation_correction_deg,
-                         std::optional<double> rate, bool skip_bad_sweeps) {
+                         std::optional<double> rate, int parts, bool skip_bad_sweeps) {
   SourceOptions options;
   options.topic = topic;
   options.sensor_file = sensor_file.string();
@@ -58,6 +58,7 @@ SourceOptions options_of(const std::string& topic, const std::filesystem::path& 
   options.spin_direction = choice("spin", spin, parse_spin_direction, "clockwise or counter-clockwise");
   options.elevation_correction_deg = elevation_correction_deg;
   options.rate_hz = rate;
+  options.parts = parts;
   options.on_bad_sweep = skip_bad_sweeps ? OnBadSweep::kSkip : OnBadSweep::kFail;
   return options;
 }
@@ -217,7 +218,8 @@ void add_sources(py::module_& module) {
   py::class_<SourceOptions>(module, "_SourceOptions")
       .def(py::init(&options_of), py::kw_only(), py::arg("topic"), py::arg("sensor_file"), py::arg("bin_fields"),
            py::arg("point_times"), py::arg("point_time_unit"), py::arg("point_time_reference"), py::arg("time_field"),
-           py::arg("spin"), py::arg("elevation_correction_deg"), py::arg("rate"), py::arg("skip_bad_sweeps"));
+           py::arg("spin"), py::arg("elevation_correction_deg"), py::arg("rate"), py::arg("parts"),
+           py::arg("skip_bad_sweeps"));
   module.def(
       "_open",
       [](const std::filesystem::path& path, const SourceOptions& options) {

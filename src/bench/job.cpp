@@ -28,6 +28,7 @@ nlohmann::json reading_json(const SourceRequest& flags) {
           {"spin", to_string(o.spin_direction)},
           {"elevation_correction_deg", o.elevation_correction_deg},
           {"rate_hz", o.rate_hz.value_or(0)},  // a rate that is assumed may be changed by the run
+          {"parts", o.parts},
           {"on_bad_sweep", to_string(o.on_bad_sweep)}};
 }
 

@@ -113,6 +113,8 @@ void add_source(KeyVisitor& keys, SourceOptions& s) {
   keys.real({"elevation_correction", "deg", "added to every elevation angle"}, s.elevation_correction_deg, -10, 10);
   keys.real({"rate", "Hz", "of the sweeps, where no period can be seen"}, s.rate_hz.emplace(s.assumed_rate_hz()), 0.001,
             1000);
+  keys.integer({"parts", "", "messages that hold a sweep in parts, joined to one; 0: found out"}, s.parts, 0,
+               SourceOptions::kMostParts);
 }
 
 }  // namespace

@@ -96,6 +96,7 @@ struct RunMetrics {
   MaybeNumber elevation_correction_deg;      ///< given
   std::string topic;
   std::string frame_id;
+  std::size_t parts = 0;  ///< of the data, that were joined to a sweep; 0: not known
   std::size_t bad_sweeps = 0;
   StampFaults stamp_faults;
   std::vector<std::string> warnings;

@@ -114,6 +114,7 @@ void list_data(auto& f, auto& m) {
   f.key("elevation_correction_deg", m.elevation_correction_deg);
   f.key("topic", m.topic);
   f.key("frame_id", m.frame_id);
+  f.key("parts", m.parts);
   f.key("bad_sweeps", m.bad_sweeps);
   f.key("stamp_faults", m.stamp_faults);
   f.key("warnings", m.warnings);

@@ -113,6 +113,7 @@ void add_data(const RunRecord& run, RunMetrics& metrics) {
   metrics.elevation_correction_deg = source.elevation_correction_deg;
   metrics.topic = source.topic;
   metrics.frame_id = source.frame_id;
+  metrics.parts = source.parts;
   metrics.bad_sweeps = source.bad_sweeps;
   metrics.stamp_faults = source.faults;
   metrics.warnings = source.warnings;

@@ -26,12 +26,22 @@ PosesOfSweeps by_stamp(const PoseFile& file, const RunRecord& run, double max_ga
   return poses;
 }
 
+/// Each part of a sweep has a pose; that of the sweep lies at its beginning, middle or end.
+std::optional<SE3> of_joined(const std::vector<SE3>& poses, std::size_t known, std::size_t first,
+                             const RunRecord& run) {
+  const std::size_t last = run.source.parts - 1;
+  const bool mid = run.pose_instant == PoseInstant::kMid;
+  const bool start = run.pose_instant == PoseInstant::kStart;
+  const std::size_t before = first + (start ? 0 : mid ? last / 2 : last);
+  const std::size_t after = first + (start ? 0 : mid ? (last + 1) / 2 : last);
+  if (after >= known) return std::nullopt;
+  return before == after ? poses[before] : interpolate(poses[before], poses[after], 0.5);
+}
+
 PosesOfSweeps by_index(const std::vector<SE3>& poses, const RunRecord& run) {
   const std::size_t known = std::min(poses.size(), run.source.places_known.value_or(poses.size()));
   PosesOfSweeps result;
-  for (const std::size_t index : run.indices) {
-    result.push_back(index < known ? std::optional(poses[index]) : std::nullopt);
-  }
+  for (const std::size_t index : run.indices) result.push_back(of_joined(poses, known, index, run));
   return result;
 }
 

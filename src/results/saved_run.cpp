@@ -54,6 +54,7 @@ void fill_record(const RunMetrics& metrics, RunRecord& run) {
   run.source.has_point_times = metrics.motion_compensation;
   run.source.elevation_correction_deg = metrics.elevation_correction_deg.value_or(0);
   run.source.topic = metrics.topic;
+  run.source.parts = std::max<std::size_t>(1, metrics.parts);
   run.source.warnings = metrics.warnings;
   run.pose_instant = parse_pose_instant(metrics.pose_instant).value_or(run.pose_instant);
 }

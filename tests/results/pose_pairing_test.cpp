@@ -51,6 +51,28 @@ TEST(PosePairing, NoTruthForSweepsWhosePlacesAreNotKnown) {
   EXPECT_THAT(pairs(), ElementsAre(true, true, false, false));
 }
 
+TEST(PosePairing, SweepsThatWereJoinedLieAmongThePosesOfTheirParts) {
+  const TempDir folder;
+  folder.write("poses.txt", kitti_row(0, 0, 0) + kitti_row(1, 0, 0) + kitti_row(2, 0, 0) + kitti_row(3, 0, 0) +
+                                kitti_row(4, 0, 0) + kitti_row(5, 0, 0));
+  RunRecord run;
+  run.indices = {0, 2, 4};
+  run.results.resize(3);
+  const auto places = [&](std::size_t parts, PoseInstant instant) {
+    run.source.parts = parts;
+    run.pose_instant = instant;
+    std::vector<double> x;
+    for (const auto& pose : poses_of_sweeps({folder / "poses.txt"}, run))
+      x.push_back(pose ? pose->translation().x() : -1);
+    return x;
+  };
+  EXPECT_THAT(places(2, PoseInstant::kMid), ElementsAre(0.5, 2.5, 4.5));
+  EXPECT_THAT(places(2, PoseInstant::kStart), ElementsAre(0, 2, 4));
+  EXPECT_THAT(places(2, PoseInstant::kEnd), ElementsAre(1, 3, 5));
+  EXPECT_THAT(places(3, PoseInstant::kMid), ElementsAre(1, 3, 5));
+  EXPECT_THAT(places(4, PoseInstant::kMid), ElementsAre(1.5, 3.5, -1));
+}
+
 TEST(PosePairing, ByTheOffsetThatFitsMostPoses) {
   const PoseFile estimate = stamped_file({0, 100, 200, 300, 400});
   for (const std::vector<std::int64_t>& later_ms : {std::vector<std::int64_t>{0}, {50, 0}, {200, 0}, {0, 200}}) {

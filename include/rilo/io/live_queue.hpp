@@ -52,6 +52,9 @@ class LiveQueue {
   /// taken.
   void push(Message message);
 
+  /// So many messages make up a sweep: LiveQueueOptions::limit is one of sweeps from then on.
+  void join(std::size_t parts);
+
   /// Wakes the reader: the source ends with what is waiting thrown away.
   void close();
 
@@ -66,6 +69,7 @@ class LiveQueue {
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::deque<Message> waiting_;
+  std::size_t parts_ = 1;
   std::size_t received_ = 0;
   std::size_t taken_ = 0;
   std::size_t dropped_ = 0;

@@ -55,6 +55,7 @@ struct SourceInfo {
   std::string topic;                    ///< of a recording
   std::string frame_id;                 ///< of its messages
   StampFaults faults;                   ///< of the stamps so far
+  std::size_t parts = 1;                ///< of the data that are joined to a sweep, see SourceOptions::parts
   std::size_t bad_sweeps = 0;           ///< skipped so far (OnBadSweep::kSkip)
   /// Sweeps from this place on have another place than ScanSource::current_index() says: damage took an unknown number
   /// of sweeps before them. Nothing: all places are known.
@@ -87,8 +88,8 @@ class ScanSource {
   /// Number of sweeps in all, when it is known without reading them.
   virtual std::optional<std::size_t> size() const = 0;
 
-  /// Place in the data (from 0) of the sweep that next() gave last: ground truth is looked up with it, since bad and
-  /// skipped sweeps leave holes in the count.
+  /// Place in the data (from 0) of the sweep that next() gave last, of its first part where parts are joined: ground
+  /// truth is looked up with it, since bad and skipped sweeps leave holes in the count.
   virtual std::size_t current_index() const = 0;
 
   /// Name of that sweep for messages: the path of its file.

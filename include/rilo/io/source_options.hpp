@@ -72,6 +72,10 @@ struct SourceOptions {
   /// Sweeps a second of data without stamps. None: 10 are assumed, and a run of two passes may find that they are a
   /// fifth of that.
   std::optional<double> rate_hz;
+  static constexpr int kMostParts = 1000;
+  /// Messages or files that hold a sweep in parts, to be joined to one. 0: found out where they come faster than 13 a
+  /// second; 1: none are joined.
+  int parts = 0;
   OnBadSweep on_bad_sweep = OnBadSweep::kFail;
   std::size_t read_ahead = 2;  ///< sweeps read ahead on a background thread; 0: none
 

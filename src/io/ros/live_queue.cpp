@@ -13,13 +13,18 @@ void LiveQueue::push(Message message) {
     ++received_;
     waiting_.push_back(std::move(message));
     const std::size_t start_up = 2 * options_.look_ahead;
-    const std::size_t most = options_.limit + (start_up - std::min(taken_, start_up));
+    const std::size_t most = parts_ * options_.limit + (start_up - std::min(taken_, start_up));
     while (options_.limit > 0 && waiting_.size() > most) {
       waiting_.pop_front();
       ++dropped_;
     }
   }
   arrived_.notify_one();
+}
+
+void LiveQueue::join(std::size_t parts) {
+  const std::lock_guard lock(mutex_);
+  parts_ = parts;
 }
 
 void LiveQueue::close() {

@@ -12,6 +12,7 @@
 #include "io/sources/source_wrappers.hpp"
 #include "io/text.hpp"
 #include "rilo/io/io_error.hpp"
+#include "rilo/io/live_queue.hpp"
 #include "rilo/io/scan_source.hpp"
 
 namespace rilo {
@@ -24,6 +25,14 @@ void check_options(const SourceOptions& options) {
   if (!(options.assumed_rate_hz() > 0 && options.assumed_rate_hz() <= kLargestRate)) {
     throw std::invalid_argument("rate_hz is " + std::to_string(options.assumed_rate_hz()) +
                                 "; it must be above 0 and at most 1000");
+  }
+  if (options.parts < 0 || options.parts > SourceOptions::kMostParts) {
+    throw std::invalid_argument("parts is " + std::to_string(options.parts) + "; it must be from 0 to " +
+                                std::to_string(SourceOptions::kMostParts));
+  }
+  if (options.parts > 1 && options.point_times == PointTimes::kAzimuth) {
+    throw std::invalid_argument(
+        "parts are joined, and azimuth times are those of whole turns: leave out one of the two");
   }
 }
 
@@ -77,6 +86,10 @@ std::unique_ptr<ScanSource> open_data(const fs::path& path, const SourceOptions&
 
 std::unique_ptr<ScanSource> in_order_and_corrected(std::unique_ptr<ScanSource> source, const SourceOptions& options) {
   source = detail::with_stamp_order(std::move(source));
+  // Azimuth times are those of whole turns.
+  if (options.point_times != PointTimes::kAzimuth) {
+    source = detail::with_joined_parts(std::move(source), static_cast<std::size_t>(options.parts));
+  }
   if (options.point_times == PointTimes::kOrder) source = detail::with_order_times(std::move(source));
   if (options.elevation_correction_deg == 0) return source;
   return detail::with_elevation_correction(std::move(source), options.elevation_correction_deg);
@@ -86,8 +99,8 @@ std::unique_ptr<ScanSource> in_order_and_corrected(std::unique_ptr<ScanSource> s
 
 std::unique_ptr<ScanSource> open_live_source(std::shared_ptr<LiveQueue> queue, const SourceOptions& options) {
   check_options(options);
-  auto source =
-      in_order_and_corrected(detail::open_recording("live", detail::open_live(std::move(queue)), options), options);
+  auto source = in_order_and_corrected(detail::open_recording("live", detail::open_live(queue), options), options);
+  queue->join(source->info().parts);
   return detail::with_field_warnings(std::move(source), options);
 }
 

@@ -38,6 +38,11 @@ std::unique_ptr<ScanSource> with_stamp_order(std::unique_ptr<ScanSource> inner);
 /// the z axis have no such axis and stay.
 void correct_elevation(std::vector<Eigen::Vector3f>& points, double offset_deg);
 
+/// Joins `parts` sweeps of `inner` to one, its stamp that of the first, but none across a gap. 0: as many as
+/// PartsOfSweep finds in the first 0.25 s, which are read at once where they come that fast, and info() says so. Points
+/// without times are taken at the stamp of their part.
+std::unique_ptr<ScanSource> with_joined_parts(std::unique_ptr<ScanSource> inner, std::size_t parts);
+
 /// Applies correct_elevation to every sweep of `inner` and says so in info().
 std::unique_ptr<ScanSource> with_elevation_correction(std::unique_ptr<ScanSource> inner, double offset_deg);
 

@@ -67,6 +67,18 @@ TEST(LiveSource, TheFreshestMessagesAreKept) {
   EXPECT_EQ(queue->counts().waiting, 0U);
 }
 
+TEST(LiveSource, WholeSweepsMayWaitWhereTheyComeInParts) {
+  const auto queue = live_queue(2, 0);
+  const auto messages = ros1_messages(40);
+  push_all(*queue, {messages.begin(), messages.begin() + 2});
+  SourceOptions options;
+  options.parts = 5;
+  const auto source = open_live_source(queue, options);
+  push_all(*queue, {messages.begin() + 2, messages.end()});
+  EXPECT_EQ(queue->counts().waiting, 10U);
+  EXPECT_EQ(queue->counts().dropped, 30U);
+}
+
 TEST(LiveSource, WhatIsLookedAtIsNotDropped) {
   const auto queue = live_queue(1, 3);
   const auto messages = ros1_messages(30);

@@ -44,9 +44,8 @@ std::vector<Row> rows_of(const RegisteredSource& sweep, const LocalMap& map, con
   for_each_residual(sweep, map, [&](std::size_t, const PlaneResidual& residual) {
     const auto& [i, sensor, world, spot, plane, e, w] = residual;
     const Eigen::Vector3d own = R * elevation_jacobian(sensor).cast<double>();
-    // Relative to a sensor that continues to move with δ as the last pose did; the whole plane moves, so that its own
-    // point counts.
-    const Eigen::Vector3d moves = own + last.at(plane.point) - spot.grid->elevation_jacobian_at(spot).cast<double>();
+    // Relative to a sensor that continues to move with δ as the last pose did. The plane moves and turns as a whole.
+    const Eigen::Vector3d moves = own - spot.grid->elevation_jacobian_at(spot, world, last);
     Row& row = rows[i / sweep.stride];
     row.pose << (world - t).cross(plane.normal), plane.normal;
     row.lever_s = refine ? sweep.state.velocity_lever_s(static_cast<double>(sweep.source.offsets_s[i])) : 0.0;

@@ -1,15 +1,23 @@
 #include "map/plane_grid.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "cloud/fixed_chunks.hpp"
+#include "rilo/geometry/se3.hpp"
 
 namespace rilo {
 
 namespace {
 constexpr double kFaceShare = 0.2;  // of the voxel: a point this near to a face may belong to the surface behind it
+
+/// Turn about the sensor of what it sees at the end of `ray` and what moves by `shift`.
+Eigen::Vector3f turn_by(const Eigen::Vector3f& shift, const Eigen::Vector3f& ray) {
+  constexpr float kShortestM = 0.1F;
+  return ray.cross(shift) / std::max(ray.squaredNorm(), kShortestM * kShortestM);
+}
 }  // namespace
 
 PlaneGrid::PlaneGrid(double voxel_m, const PlaneCriteria& criteria)
@@ -82,6 +90,17 @@ void PlaneGrid::Voxel::forget_half() {
   ray_sum *= share;
 }
 
+void PlaneGrid::Voxel::move(const Eigen::Vector3f& shift, const Eigen::Matrix3f& R) {
+  const auto n = static_cast<float>(count);
+  Eigen::Matrix3f S;
+  S << squares[0], squares[1], squares[2], squares[1], squares[3], squares[4], squares[2], squares[4], squares[5];
+  const Eigen::Vector3f mean = sum / n;
+  const Eigen::Vector3f moved = mean + shift;
+  S = (R * (S - n * mean * mean.transpose()) * R.transpose() + n * moved * moved.transpose()).eval();
+  squares << S(0, 0), S(0, 1), S(0, 2), S(1, 1), S(1, 2), S(2, 2);
+  sum = n * moved;
+}
+
 inline void PlaneGrid::Voxel::add(const Eigen::Vector3f& d, const InsertedPoint& point) {
   sum += d;
   elevation_jacobian_sum += point.elevation_jacobian;
@@ -115,6 +134,16 @@ void PlaneGrid::add(const Run& run) {
   }
 }
 
+Eigen::Vector3d PlaneGrid::elevation_jacobian_at(const PlaneSpot& spot, const Eigen::Vector3d& p,
+                                                 const PoseDerivative& sensor) const {
+  const Voxel& voxel = pool_[spot.voxel];
+  const auto n = static_cast<float>(voxel.count);
+  const Eigen::Vector3d centroid = centre_of(voxel) + (voxel.sum / n).cast<double>();
+  const Eigen::Vector3f shift = voxel.elevation_jacobian_sum / n - sensor.at(centroid).cast<float>();
+  const Eigen::Vector3f turn = turn_by(shift, voxel.ray_sum / n);
+  return (shift + turn.cross((p - centroid).cast<float>())).cast<double>();
+}
+
 void PlaneGrid::shift_elevation(double angle_rad, const PoseDerivative& sensor) {
   for_fixed_chunks(pool_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t id = first; id < last; ++id) {
@@ -122,21 +151,16 @@ void PlaneGrid::shift_elevation(double angle_rad, const PoseDerivative& sensor) 
       if (voxel.count == 0) {
         continue;
       }
-      // Every point moves by the mean: what differs between them is of second order.
+      // The points of a voxel move by the mean and turn about it, as they do about the sensor.
       const auto n = static_cast<float>(voxel.count);
       const Eigen::Vector3d centroid = centre_of(voxel) + (voxel.sum / n).cast<double>();
       const Eigen::Vector3f own = sensor.at(centroid).cast<float>();
       const Eigen::Vector3f shift = static_cast<float>(angle_rad) * (voxel.elevation_jacobian_sum / n - own);
-      const Eigen::Matrix3f moved = voxel.sum * shift.transpose();
-      const Eigen::Matrix3f change = moved + moved.transpose() + n * shift * shift.transpose();
-      voxel.squares[0] += change(0, 0);
-      voxel.squares[1] += change(0, 1);
-      voxel.squares[2] += change(0, 2);
-      voxel.squares[3] += change(1, 1);
-      voxel.squares[4] += change(1, 2);
-      voxel.squares[5] += change(2, 2);
-      voxel.sum += n * shift;
+      const Eigen::Matrix3f R = so3_exp(turn_by(shift, voxel.ray_sum / n).cast<double>()).cast<float>();
+      voxel.move(shift, R);
       planes_[id].mean += shift;
+      planes_[id].normal = R * planes_[id].normal;
+      extents_[id].middle = R * extents_[id].middle;
     }
   });
 }

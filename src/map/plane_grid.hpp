@@ -138,11 +138,10 @@ class PlaneGrid {
   void prefetch(const VoxelIndex& index) const { __builtin_prefetch(&slot_at(home_of(voxel_key(index)))); }
   VoxelIndex index_of(const Eigen::Vector3d& p) const { return voxel_of(p, inverse_); }
 
-  /// Derivative of the centroid of the points there with respect to the elevation offset, m/rad: mean over its points.
-  Eigen::Vector3f elevation_jacobian_at(const PlaneSpot& spot) const {
-    const Voxel& voxel = pool_[spot.voxel];
-    return voxel.elevation_jacobian_sum / static_cast<float>(voxel.count);
-  }
+  /// Derivative of the place `p` on the surface there with respect to the elevation offset, m/rad, relative to a sensor
+  /// that moves with it: that of the centroid, about which the surface turns as shift_elevation() turns it.
+  Eigen::Vector3d elevation_jacobian_at(const PlaneSpot& spot, const Eigen::Vector3d& p,
+                                        const PoseDerivative& sensor) const;
 
   /// Whether the voxel that holds `p` has points.
   bool occupied(const Eigen::Vector3d& p) const;
@@ -178,6 +177,8 @@ class PlaneGrid {
     /// Adds a point `d` from the voxel's centre.
     void add(const Eigen::Vector3f& d, const InsertedPoint& point);
     void forget_half();
+    /// Turns the points about their mean, which is shifted.
+    void move(const Eigen::Vector3f& shift, const Eigen::Matrix3f& R);
   };
   /// What look-ups read, at the same place in a pool of its own: half a cache line.
   struct alignas(32) Plane {

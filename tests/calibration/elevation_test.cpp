@@ -64,17 +64,18 @@ TEST(Elevation, TheMapMovesAsIfItHadBeenMadeOfTurnedPoints) {
   ASSERT_TRUE(map.find(centre, plane));
   ASSERT_TRUE(expected.find(centre, expected_plane));
   EXPECT_LT((plane.point - expected_plane.point).norm(), 1e-4);
+  EXPECT_LT(plane.normal.cross(expected_plane.normal).norm(), 1e-5);
   EXPECT_GT(std::abs(plane.point.z() - centre.z()), 0.015);  // it did move
   // Seen from a sensor that moves along, nothing does.
   LocalMap along(scene_map_config());
   along.insert(points, T, {});
-  Eigen::Vector3f elevation_jacobian = Eigen::Vector3f::Zero();
+  Eigen::Vector3d elevation_jacobian = Eigen::Vector3d::Zero();
   along.visit(
       0, 1, [&](std::size_t) -> const Eigen::Vector3d& { return centre; },
       [&](std::size_t, const Eigen::Vector3d&, const PlaneSpot& spot) {
-        elevation_jacobian = spot.grid->elevation_jacobian_at(spot);
+        elevation_jacobian = spot.grid->elevation_jacobian_at(spot, centre, {});
       });
-  const PoseDerivative pose_derivative{centre, Eigen::Vector3d::Zero(), elevation_jacobian.cast<double>()};
+  const PoseDerivative pose_derivative{centre, Eigen::Vector3d::Zero(), elevation_jacobian};
   along.shift_elevation(angle, pose_derivative);
   ASSERT_TRUE(along.find(centre, plane));
   EXPECT_LT((plane.point - centre).norm(), 0.1);

@@ -39,7 +39,7 @@ TEST(PlaneGridTest, ManyPointsAtOnceAreTheSameAsOneByOne) {
     ASSERT_EQ(together.locate(p, a), singly.locate(p, b));
     if (a.grid != nullptr) {
       EXPECT_EQ(together.plane_at(a).normal, singly.plane_at(b).normal);
-      EXPECT_EQ(together.elevation_jacobian_at(a), singly.elevation_jacobian_at(b));
+      EXPECT_EQ(together.elevation_jacobian_at(a, p, {}), singly.elevation_jacobian_at(b, p, {}));
     }
   }
 }
@@ -77,7 +77,7 @@ TEST(PlaneGridTest, RunsOfPointsFromFinerVoxelsAreTheSameAsOneByOne) {
       ++found;
       ASSERT_EQ(runs.plane_at(a).normal, singly.plane_at(b).normal);
       ASSERT_EQ(runs.plane_at(a).point, singly.plane_at(b).point);
-      ASSERT_EQ(runs.elevation_jacobian_at(a), singly.elevation_jacobian_at(b));
+      ASSERT_EQ(runs.elevation_jacobian_at(a, p, {}), singly.elevation_jacobian_at(b, p, {}));
     }
   }
   EXPECT_GT(found, points.size() / 2);

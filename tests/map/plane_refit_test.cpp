@@ -106,7 +106,7 @@ TEST(PlaneRefitTest, WhatAVoxelForgetsDoesNotChangeItsMeans) {
   }
   PlaneSpot spot;
   ASSERT_EQ(grid.look_up(grid.index_of({0.5, 0.5, 0.5}), spot), PlaneGrid::Kind::kScatter);
-  EXPECT_TRUE(grid.elevation_jacobian_at(spot).isApprox(Eigen::Vector3f(1.0F, 2.0F, 3.0F), 1e-5F));
+  EXPECT_TRUE(grid.elevation_jacobian_at(spot, {0.5, 0.5, 0.5}, {}).isApprox(Eigen::Vector3d(1.0, 2.0, 3.0), 1e-5));
   const MapScatter scatter = grid.scatter_at(spot);
   EXPECT_NEAR(scatter.mean.x(), 0.5, 0.2);
   EXPECT_NEAR(scatter.variances.sum(), 3.0 * 0.64 / 12.0, 0.06);

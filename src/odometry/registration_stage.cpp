@@ -1,5 +1,6 @@
 #include "odometry/registration_stage.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -26,6 +27,25 @@ Registration held(const RegistrationParts& parts, const PoseSearch& search, cons
   again.cut = found.cut;
   again.ambiguous = found.ambiguous;
   return again;
+}
+
+/// Where the coarse result leads elsewhere, and the sweep fits there worse than usual, the prediction may have been
+/// right: of both the better counts, and none where they fit about as well.
+void compare_with_prediction(const RegistrationParts& parts, const PoseSearch& search, const MotionState& predicted,
+                             Registration& found) {
+  constexpr double kAboutAsWell = 0.8;  // of the better quality (experiment: the prediction beside the coarse result)
+  Registration other =
+      search.to_map(predicted, parts.tracker.prior(std::nullopt), parts.sigma_th_m, parts.config.icp, search.end());
+  found.starts = other.starts = found.starts + 1;
+  if (!elsewhere(other.icp.state.T_odom_lidar, found.icp.state.T_odom_lidar)) {
+    return;
+  }
+  const auto [less, more] = std::minmax(found.quality, other.quality);
+  const bool ambiguous = less > kAboutAsWell * more;
+  if (settled(other.icp) && (!settled(found.icp) || other.quality > found.quality)) {
+    found = std::move(other);
+  }
+  found.ambiguous = found.ambiguous || ambiguous;
 }
 
 /// A sweep of another time lies where no velocity of the sensor led to, and what its pose implies bends it: once more
@@ -71,6 +91,9 @@ Registration fine_registration(const RegistrationParts& parts, const MotionState
   const bool implied = refuted && !parts.after_gap && initial.twist != parts.tracker.trusted().twist;
   if (implied && parts.initial_pose.suspicious(found.quality) && !search.end().passed()) {
     retry_as_before(parts, search, found);
+  }
+  if (refuted && !parts.tracker.lost() && parts.initial_pose.suspicious(found.quality) && !search.end().passed()) {
+    compare_with_prediction(parts, search, predicted, found);
   }
   if (parts.initial_pose.suspicious(found.quality) || newly_degenerate(parts, found)) {
     found.cut = search.end().passed();

@@ -19,16 +19,20 @@ void ThinnedMap::add(const std::vector<Eigen::Vector3f>& points, const SE3& T_od
     if (!taken_.insert(voxel_key(voxel_of(world, inverse))).second) {
       continue;
     }
-    points_.push_back(world.cast<float>());
-    sweeps_.push_back(sweep);
-    if (!intensities.empty()) {
+    // A column of all points or none: later ones have no place behind a sweep without intensities.
+    if (!intensities.empty() && intensities_.size() == points_.size()) {
       intensities_.push_back(intensities[i]);
     }
+    points_.push_back(world.cast<float>());
+    sweeps_.push_back(sweep);
   }
 }
 
 MapCloud ThinnedMap::cloud(bool with_normals) const {
-  MapCloud cloud{points_, {}, intensities_};
+  MapCloud cloud{points_, {}, {}};
+  if (intensities_.size() == points_.size()) {
+    cloud.intensities = intensities_;
+  }
   if (with_normals) {
     std::vector<Eigen::Vector3f> seen_from;
     seen_from.reserve(points_.size());

@@ -52,6 +52,7 @@ class LiveOdometry::Impl {
   void stop() {
     stopping_ = true;
     queue->close();
+    const std::lock_guard lock(ending_);
     if (thread_.joinable()) thread_.join();
   }
 
@@ -236,6 +237,7 @@ class LiveOdometry::Impl {
   Throttle drops_;
   std::size_t dropped_told_ = 0;
   std::atomic<bool> stopping_{false};
+  std::mutex ending_;
   std::thread thread_;
 };
 

@@ -145,7 +145,7 @@ void add_icp(KeyVisitor& keys, AdaptiveIcpConfig& c) {
              "experiment: convergence in standard deviations"},
             c.epsilon, 0, 10);
   keys.boolean({"refine_motion", "", "estimate the velocity during the sweep together with the pose",
-                "docs/method.md, velocity in the state"},
+                "docs/method.md, adaptive ICP"},
                c.refine_motion);
   keys.real({"noise_m", "m", "least standard deviation of a residual", kNotTuned}, c.noise_m, 0.0001, 10);
   keys.real({"scatter_noise_m", "m", "sigma of the weight sigma²/(sigma² + variance) of points that meet no plane",

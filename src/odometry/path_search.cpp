@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "odometry/optimum.hpp"
@@ -14,15 +15,21 @@ namespace {
 // before, so that it lies on the path.
 constexpr int kPeriods = 8;
 
-/// More than both of its neighbours.
-bool is_peak(const std::vector<double>& overlaps, std::size_t i) {
-  return (i == 0 || overlaps[i] > overlaps[i - 1]) && (i + 1 == overlaps.size() || overlaps[i] > overlaps[i + 1]);
+/// More than both of its neighbours on the path; the place of a claim, where the sweep before fitted, had the motion
+/// been possible, has none.
+bool is_peak(std::span<const double> on_path, std::size_t i) {
+  return i >= on_path.size() ||
+         ((i == 0 || on_path[i] > on_path[i - 1]) && (i + 1 == on_path.size() || on_path[i] > on_path[i + 1]));
 }
 }  // namespace
 
 void PathSearch::improve(const MotionState& predicted, Registration& found) const {
   const Deadline looks_end = search_.end().after(PoseSearch::kTimeShare);
-  const std::vector<MotionState> places = places_of(predicted);
+  std::vector<MotionState> places = path_of(predicted);
+  const std::size_t path_size = places.size();
+  if (const std::optional<MotionState> claimed = parts_.tracker.predicted_from_claim()) {
+    places.push_back(*claimed);
+  }
   const SE3 T_found = found.icp.state.T_odom_lidar;
   const auto is_elsewhere = [&](const MotionState& place) { return elsewhere(place.T_odom_lidar, T_found); };
   if (std::none_of(places.begin(), places.end(), is_elsewhere)) {
@@ -43,7 +50,8 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   const bool clear = best && more(places[*best]);
   if (!clear) {
     // What the sensor has turned meanwhile hides what the sweeps have in common until one is registered.
-    const auto tried = [&](std::size_t i) { return is_elsewhere(places[i]) && is_peak(overlaps, i); };
+    const auto on_path = std::span(overlaps).first(path_size);
+    const auto tried = [&](std::size_t i) { return is_elsewhere(places[i]) && is_peak(on_path, i); };
     best = parts_.tracker.lost() ? most_of(overlaps, tried) : std::nullopt;
   }
   if (!best) {
@@ -65,8 +73,8 @@ Registration PathSearch::registered_from(const MotionState& place) const {
 }
 
 /// Where the sensor was or will be, so far apart that between two places a match is still 0.6, or, where it turns
-/// rather than moves, a period apart; at last where the sweep before fitted, had the motion been possible.
-std::vector<MotionState> PathSearch::places_of(const MotionState& predicted) const {
+/// rather than moves, a period apart.
+std::vector<MotionState> PathSearch::path_of(const MotionState& predicted) const {
   const double speed_m_s = predicted.twist.tail<3>().norm();
   const double reach_s = std::min(kPeriods * parts_.period_s, SweepOverlap::kReachM / std::max(speed_m_s, 1e-9));
   const double step_s = std::min(parts_.period_s, 2.0 * SweepOverlap::kSigmaM / std::max(speed_m_s, 1e-9));
@@ -74,9 +82,6 @@ std::vector<MotionState> PathSearch::places_of(const MotionState& predicted) con
   std::vector<MotionState> places;
   for (int k = -steps; k <= steps; ++k) {
     places.push_back({predicted.T_odom_lidar * se3_exp(k * step_s * predicted.twist), predicted.twist});
-  }
-  if (const std::optional<MotionState> claimed = parts_.tracker.predicted_from_claim()) {
-    places.push_back(*claimed);
   }
   return places;
 }

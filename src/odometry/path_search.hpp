@@ -21,7 +21,7 @@ class PathSearch {
  private:
   SweepOverlap overlap_with_last(const MotionState& predicted, const Registration& found) const;
   Registration registered_from(const MotionState& place) const;
-  std::vector<MotionState> places_of(const MotionState& predicted) const;
+  std::vector<MotionState> path_of(const MotionState& predicted) const;
 
   const RegistrationParts& parts_;
   const PoseSearch& search_;

@@ -44,8 +44,11 @@ SweepTime SweepClock::advance(std::int64_t given_ns, std::int64_t to_middle_ns) 
   }
   given_ns_ = given_ns;
   if (time.believed) {
-    remember(std::max<std::int64_t>(1, time.step_ns - shift_ns));
-    time.even_ns = std::max<std::int64_t>(1, last_even_ns() + shift_ns);
+    const std::int64_t turn_ns = difference(time.step_ns, shift_ns);
+    if (turn_ns >= kShortestStepNs) {  // else the times of the points go on in place of the stamps
+      remember(turn_ns);
+      time.even_ns = std::max<std::int64_t>(1, last_even_ns() + shift_ns);
+    }
     believed_ns_ = given_ns;
     since_ns_ = 0;
   } else {
@@ -76,7 +79,7 @@ std::int64_t SweepClock::last_even_ns() const {
     total += step;
     ticks += last;
   }
-  return last * total / ticks;
+  return last * (total / ticks) + last * (total % ticks) / ticks;
 }
 
 void SweepClock::remember(std::int64_t step_ns) { steps_[count_++ % kRemembered] = step_ns; }

@@ -42,7 +42,10 @@ std::string further_maps(const std::vector<SweepResult>& results, const std::vec
 std::optional<KnownVelocity> velocity_after_late_beginning(const std::vector<SweepResult>& results) {
   const auto first = std::find_if(results.begin(), results.end(),
                                   [](const SweepResult& r) { return r.status == OdometryStatus::kOk; });
-  const auto begun = std::count_if(results.begin(), first,
+  const auto held = std::find_if(results.begin(), first, [](const SweepResult& r) {
+    return r.status == OdometryStatus::kDegenerate || r.status == OdometryStatus::kRecovered;
+  });
+  const auto begun = std::count_if(results.begin(), held,
                                    [](const SweepResult& r) { return r.status == OdometryStatus::kInitialising; });
   if (first == results.end() || begun < 2) return std::nullopt;
   const double at_s = detail::seconds_between(results.front().stamp_ns, first->stamp_ns);

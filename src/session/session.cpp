@@ -138,7 +138,7 @@ class Session::Impl {
     try_rate();
     // Sweeps that go astray at a wrong rate do not show whether their points are raw.
     if (rate_trial_.slower() && !result_.trial.raw() && !result_.trial.compensated()) try_times();
-    if (result_.trial.times == PointTimes::kAuto) return;
+    if (result_.trial.times == PointTimes::kAuto || result_.trial.times == PointTimes::kNone) return;
     for (SessionObserver* observer : observers_) observer->on_trial(result_.trial);
   }
 

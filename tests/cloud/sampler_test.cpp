@@ -100,6 +100,16 @@ TEST(ThinnedMapTest, IntensitiesAndNormalsTowardsTheSensor) {
   EXPECT_EQ(cloud.normals.back(), Eigen::Vector3f::Zero());
 }
 
+TEST(ThinnedMapTest, IntensitiesAreThoseOfAllPointsOrNone) {
+  ThinnedMap map(0.5);
+  map.add({{1.0F, 0.0F, 0.0F}}, SE3::Identity(), {3.0F});
+  EXPECT_EQ(map.cloud(false).intensities, std::vector<float>{3.0F});
+  map.add({{2.0F, 0.0F, 0.0F}}, SE3::Identity());
+  map.add({{3.0F, 0.0F, 0.0F}}, SE3::Identity(), {5.0F});
+  EXPECT_EQ(map.cloud(false).points.size(), 3U);
+  EXPECT_TRUE(map.cloud(false).intensities.empty());
+}
+
 TEST(ThinnedMapTest, ALineHasNoNormals) {
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 30; ++i) points.emplace_back(static_cast<float>(i), 0.05F, 0.05F);

@@ -128,6 +128,19 @@ TEST(SweepClock, ExtremeStampsDoNotOverflow) {
   }
 }
 
+// Stamps that stand still, points whose times go on: the middle moves by all that the stamps should.
+TEST(SweepClock, TimesOfPointsThatGoOnInPlaceOfStamps) {
+  SweepClock clock;
+  for (std::int64_t i = 0; i < 6; ++i) {
+    const SweepTime time = clock.advance(50 * i * kMs, 50 * i * kMs);
+    EXPECT_EQ(time.step_ns, i == 0 ? 0 : 50 * kMs);
+    EXPECT_EQ(clock.period_ns(), 100 * kMs);  // nothing is known of it
+  }
+  const SweepTime later = clock.advance(9250 * kMs, 250 * kMs);
+  EXPECT_EQ(later.step_ns, 9000 * kMs);
+  EXPECT_EQ(later.even_ns, 9000 * kMs);
+}
+
 TEST(SweepClock, AfterAStampInDoubtStepsCountAsTheyAre) {
   SweepClock clock;
   EXPECT_EQ(steps_ms(clock, {0, 100, 200, 1'000'300, 400, 520, 610}),

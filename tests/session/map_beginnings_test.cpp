@@ -68,7 +68,7 @@ TEST(FurtherMaps, WhereMostSweepsBeginOneTheCauseIsNamed) {
 }
 
 TEST(LateBeginning, NoneWhereTheFirstMapHoldsOrNoneDoes) {
-  for (const char* sweeps : {"", "i", "io", "eioo", "ioooliio", "iiii", "iid"}) {
+  for (const char* sweeps : {"", "i", "io", "eioo", "ioooliio", "iiii", "iid", "idddlio", "idio"}) {
     EXPECT_FALSE(velocity_after_late_beginning(results_of(sweeps))) << sweeps;
   }
 }

@@ -1,6 +1,8 @@
 #include "io/packets/packet_source.hpp"
 
+#include <cmath>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -9,6 +11,7 @@
 #include "io/packets/find_decoder.hpp"
 #include "io/packets/one_sensor.hpp"
 #include "io/packets/udp_reader.hpp"
+#include "io/stamp_difference.hpp"
 #include "io/text.hpp"
 #include "io/times/sweep_period.hpp"
 #include "rilo/io/io_error.hpp"
@@ -140,9 +143,25 @@ class PacketSource final : public ScanSource {
                    "Check the disk, and that no other program writes the file"});
   }
 
+  // When the sensor faced forward, by the packets' own times.
+  static double forward_s(const Sweep& sweep) {
+    double forward_s = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+      const Eigen::Vector3d p = sweep.points[i].cast<double>();
+      const double off = std::abs(std::atan2(p.y(), p.x()));  // NaN is less than nothing
+      if (off < least) {
+        least = off;
+        forward_s = static_cast<double>(sweep.times_s[i]);
+      }
+    }
+    return forward_s;
+  }
+
   void set_times(Sweep& sweep) const {
     if (options_.point_times == PointTimes::kNone) sweep.times_s.clear();
     if (options_.point_times == PointTimes::kAzimuth) {
+      sweep.stamp_ns += nanoseconds(forward_s(sweep));
       sweep.times_s = azimuth_times(sweep.points, info_.period_s, options_.spin_direction);
     }
   }

@@ -37,6 +37,26 @@ TEST(VelodyneTest, TurnsFromTheRear) {
   EXPECT_EQ(info.faults, StampFaults{});
 }
 
+// Azimuth times count from the forward direction, which a turn that begins behind faces half way.
+TEST(VelodyneTest, TimesFromTheAzimuthAreTheSameTimes) {
+  const TempDir folder;
+  const auto file = folder.write("v.pcap", velodyne_drive(0x28, 4.5).text());
+  SourceOptions options;
+  const auto own = sweeps_of(*open_scan_source(file, options));
+  options.point_times = PointTimes::kAzimuth;
+  const auto azimuth = sweeps_of(*open_scan_source(file, options));
+  ASSERT_EQ(azimuth.size(), own.size());
+  const auto time_s = [](const Sweep& sweep, std::size_t i) {
+    return 1e-9 * static_cast<double>(sweep.stamp_ns - kCaptureBegin) + static_cast<double>(sweep.times_s[i]);
+  };
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    for (std::size_t i = 0; i < own[k].points.size(); i += 100) {
+      if (std::abs(azimuth_deg(own[k].points[i])) > 170) continue;        // of either end of the turn
+      EXPECT_NEAR(time_s(azimuth[k], i), time_s(own[k], i), 0.003) << i;  // 4.2° aside
+    }
+  }
+}
+
 TEST(VelodyneTest, SixteenLasersFireTwiceABlock) {
   const TempDir folder;
   const auto source = open_scan_source(folder.write("v.pcap", velodyne_drive(0x22, 3.5, 18000).text()));

@@ -134,14 +134,17 @@ void PlaneGrid::add(const Run& run) {
   }
 }
 
+PlaneGrid::Centroid PlaneGrid::centroid_of(const Voxel& voxel, const PoseDerivative& sensor) const {
+  const auto n = static_cast<float>(voxel.count);
+  const Eigen::Vector3d place = centre_of(voxel) + (voxel.sum / n).cast<double>();
+  return {place, voxel.elevation_jacobian_sum / n - sensor.at(place).cast<float>(), voxel.ray_sum / n};
+}
+
 Eigen::Vector3d PlaneGrid::elevation_jacobian_at(const PlaneSpot& spot, const Eigen::Vector3d& p,
                                                  const PoseDerivative& sensor) const {
-  const Voxel& voxel = pool_[spot.voxel];
-  const auto n = static_cast<float>(voxel.count);
-  const Eigen::Vector3d centroid = centre_of(voxel) + (voxel.sum / n).cast<double>();
-  const Eigen::Vector3f shift = voxel.elevation_jacobian_sum / n - sensor.at(centroid).cast<float>();
-  const Eigen::Vector3f turn = turn_by(shift, voxel.ray_sum / n);
-  return (shift + turn.cross((p - centroid).cast<float>())).cast<double>();
+  const Centroid centroid = centroid_of(pool_[spot.voxel], sensor);
+  const Eigen::Vector3f turn = turn_by(centroid.by_elevation, centroid.ray);
+  return (centroid.by_elevation + turn.cross((p - centroid.place).cast<float>())).cast<double>();
 }
 
 void PlaneGrid::shift_elevation(double angle_rad, const PoseDerivative& sensor) {
@@ -152,11 +155,9 @@ void PlaneGrid::shift_elevation(double angle_rad, const PoseDerivative& sensor) 
         continue;
       }
       // The points of a voxel move by the mean and turn about it, as they do about the sensor.
-      const auto n = static_cast<float>(voxel.count);
-      const Eigen::Vector3d centroid = centre_of(voxel) + (voxel.sum / n).cast<double>();
-      const Eigen::Vector3f own = sensor.at(centroid).cast<float>();
-      const Eigen::Vector3f shift = static_cast<float>(angle_rad) * (voxel.elevation_jacobian_sum / n - own);
-      const Eigen::Matrix3f R = so3_exp(turn_by(shift, voxel.ray_sum / n).cast<double>()).cast<float>();
+      const Centroid centroid = centroid_of(voxel, sensor);
+      const Eigen::Vector3f shift = static_cast<float>(angle_rad) * centroid.by_elevation;
+      const Eigen::Matrix3f R = so3_exp(turn_by(shift, centroid.ray).cast<double>()).cast<float>();
       voxel.move(shift, R);
       planes_[id].mean += shift;
       planes_[id].normal = R * planes_[id].normal;

@@ -208,6 +208,13 @@ class PlaneGrid {
     return voxel_m_ * Eigen::Vector3d(index.x + 0.5, index.y + 0.5, index.z + 0.5);
   }
   Eigen::Vector3d centre_of(const Voxel& voxel) const;
+  /// Of the points of a voxel.
+  struct Centroid {
+    Eigen::Vector3d place;         // m
+    Eigen::Vector3f by_elevation;  // its derivative, relative to a sensor that moves with the offset, m/rad
+    Eigen::Vector3f ray;           // to it
+  };
+  Centroid centroid_of(const Voxel& voxel, const PoseDerivative& sensor) const;
   Slot& slot_at(std::size_t i) { return lines_[i / kLineSlots].slots[i % kLineSlots]; }
   const Slot& slot_at(std::size_t i) const { return lines_[i / kLineSlots].slots[i % kLineSlots]; }
   std::size_t last_slot() const { return lines_.size() * kLineSlots - 1; }

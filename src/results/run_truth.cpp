@@ -30,10 +30,11 @@ PosesOfSweeps by_stamp(const PoseFile& file, const RunRecord& run, double max_ga
 std::optional<SE3> of_joined(const std::vector<SE3>& poses, std::size_t known, std::size_t first,
                              const RunRecord& run) {
   const std::size_t last = run.source.parts - 1;
-  const bool mid = run.pose_instant == PoseInstant::kMid;
-  const bool start = run.pose_instant == PoseInstant::kStart;
-  const std::size_t before = first + (start ? 0 : mid ? last / 2 : last);
-  const std::size_t after = first + (start ? 0 : mid ? (last + 1) / 2 : last);
+  std::size_t halves = last;  // of a part, from the first to the one where the pose lies
+  if (run.pose_instant == PoseInstant::kStart) halves = 0;
+  if (run.pose_instant == PoseInstant::kEnd) halves = 2 * last;
+  const std::size_t before = first + halves / 2;
+  const std::size_t after = first + (halves + 1) / 2;
   if (after >= known) return std::nullopt;
   return before == after ? poses[before] : interpolate(poses[before], poses[after], 0.5);
 }

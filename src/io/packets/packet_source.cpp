@@ -149,7 +149,7 @@ class PacketSource final : public ScanSource {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < sweep.points.size(); ++i) {
       const Eigen::Vector3d p = sweep.points[i].cast<double>();
-      const double off = std::abs(std::atan2(p.y(), p.x()));  // NaN is less than nothing
+      const double off = std::abs(std::atan2(p.y(), p.x()));  // NaN: never the least
       if (off < least) {
         least = off;
         forward_s = static_cast<double>(sweep.times_s[i]);

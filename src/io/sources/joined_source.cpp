@@ -1,30 +1,37 @@
 // Parts that make up a sweep, joined to one.
 #include <deque>
-#include <exception>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "io/sources/parts_of_sweep.hpp"
+#include "io/sources/read_sweep.hpp"
 #include "io/sources/source_wrappers.hpp"
 #include "io/stamp_difference.hpp"
-#include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
 namespace {
 
+/// A column of all points or none.
 template <typename Value>
-void append_column(std::vector<Value>& to, std::size_t points, std::vector<Value>& from, std::size_t from_points) {
-  if (to.size() != points || from.size() != from_points) return to.clear();
+void append_column(const std::vector<Value>& from, const Sweep& part, std::vector<Value>& to, const Sweep& joined) {
+  if (from.size() != part.points.size() || to.size() != joined.points.size()) return to.clear();
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Times that count from another stamp, `offset_s` earlier. Points without times are all at their stamp.
-std::vector<float> times_since(const Sweep& part, double offset_s) {
-  if (part.times_s.empty()) return std::vector<float>(part.points.size(), static_cast<float>(offset_s));
-  std::vector<float> times = part.times_s;
-  for (float& t : times) t = static_cast<float>(offset_s + static_cast<double>(t));
-  return times;
+/// Times then count from the stamp of `joined`. Points without times are all at the stamp of their part.
+void append(const Sweep& part, Sweep& joined) {
+  append_column(part.intensities, part, joined.intensities, joined);
+  append_column(part.rings, part, joined.rings, joined);
+  const double since_s = seconds_between(joined.stamp_ns, part.stamp_ns);
+  for (std::size_t i = 0; i < part.points.size(); ++i) {
+    const double time_s = part.times_s.empty() ? 0.0 : static_cast<double>(part.times_s[i]);
+    joined.times_s.push_back(static_cast<float>(since_s + time_s));
+  }
+  joined.points.insert(joined.points.end(), part.points.begin(), part.points.end());
 }
 
 class JoinedSource final : public WrappedSource {
@@ -38,22 +45,24 @@ class JoinedSource final : public WrappedSource {
   }
 
   std::optional<Sweep> next() override {
-    Part first = take();
+    ReadSweep first = read();
     index_ = first.index;
     name_ = std::move(first.name);
-    if (first.error) std::rethrow_exception(first.error);
-    if (!first.sweep) return std::nullopt;
-    Sweep joined = std::move(*first.sweep);
-    if (parts_ > 1) joined.times_s = times_since(joined, 0);
-    for (std::size_t i = 1; i < parts_ && next_belongs_to(joined); ++i) append(*take().sweep, joined);
+    std::optional<Sweep> sweep = first.take();
+    if (!sweep || parts_ == 1) return sweep;
+    Sweep joined;
+    joined.stamp_ns = sweep->stamp_ns;
+    append(*sweep, joined);
+    for (std::size_t i = 1; i < parts_ && next_belongs_to(joined); ++i) append(*read().sweep, joined);
     return joined;
   }
 
   std::size_t skip(std::size_t count) override {
-    std::size_t parts = 0;
-    for (; parts < count * parts_ && !waiting_.empty(); ++parts) waiting_.pop_front();
-    if (parts < count * parts_) parts += inner_->skip(count * parts_ - parts);
-    return in_sweeps(parts);
+    const std::size_t parts = count * parts_;
+    std::size_t skipped = 0;
+    for (; skipped < parts && !waiting_.empty() && !waiting_.front().is_end(); ++skipped) waiting_.pop_front();
+    if (waiting_.empty()) skipped += inner_->skip(parts - skipped);
+    return in_sweeps(skipped);
   }
 
   std::optional<std::size_t> size() const override {
@@ -81,60 +90,30 @@ class JoinedSource final : public WrappedSource {
   }
 
  private:
-  // One outcome of the inner next().
-  struct Part {
-    std::optional<Sweep> sweep;  // empty with no error: the end
-    std::exception_ptr error;
-    std::size_t index = 0;
-    std::string name;
-  };
-
-  Part read() {
-    Part part;
-    try {
-      part.sweep = inner_->next();
-    } catch (const IoError&) {
-      part.error = std::current_exception();
-    }
-    part.index = inner_->current_index();
-    part.name = inner_->current_name();
-    return part;
-  }
-
-  Part take() {
-    if (waiting_.empty()) return read();
-    Part part = std::move(waiting_.front());
+  ReadSweep read() {
+    if (waiting_.empty()) return read_sweep(*inner_);
+    ReadSweep first = std::move(waiting_.front());
     waiting_.pop_front();
-    return part;
+    return first;
   }
 
   std::size_t find_parts() {
     PartsOfSweep found(part_s_);
     while (!found.parts()) {
-      waiting_.push_back(read());
-      const Part& part = waiting_.back();
-      if (part.sweep) found.add(*part.sweep);
-      if (!part.sweep && !part.error) return 1;
+      waiting_.push_back(read_sweep(*inner_));
+      if (waiting_.back().is_end()) return 1;
+      if (waiting_.back().sweep) found.add(*waiting_.back().sweep);
     }
     return *found.parts();
   }
 
   // Not across a gap, nor one that cannot be read.
   bool next_belongs_to(const Sweep& joined) {
-    if (waiting_.empty()) waiting_.push_back(read());
-    const Part& part = waiting_.front();
-    if (!part.sweep) return false;
-    const double since_s = seconds_between(joined.stamp_ns, part.sweep->stamp_ns);
+    if (waiting_.empty()) waiting_.push_back(read_sweep(*inner_));
+    const std::optional<Sweep>& part = waiting_.front().sweep;
+    if (!part) return false;
+    const double since_s = seconds_between(joined.stamp_ns, part->stamp_ns);
     return since_s >= 0 && since_s < (static_cast<double>(parts_) - 0.5) * part_s_;
-  }
-
-  static void append(Sweep part, Sweep& joined) {
-    const std::size_t points = joined.points.size();
-    const std::vector<float> times = times_since(part, seconds_between(joined.stamp_ns, part.stamp_ns));
-    append_column(joined.intensities, points, part.intensities, part.points.size());
-    append_column(joined.rings, points, part.rings, part.points.size());
-    joined.times_s.insert(joined.times_s.end(), times.begin(), times.end());
-    joined.points.insert(joined.points.end(), part.points.begin(), part.points.end());
   }
 
   std::size_t in_sweeps(std::size_t parts) const { return (parts + parts_ - 1) / parts_; }
@@ -143,7 +122,7 @@ class JoinedSource final : public WrappedSource {
   std::size_t parts_ = 1;
   double part_s_ = 0;
   bool timed_ = false;
-  std::deque<Part> waiting_;
+  std::deque<ReadSweep> waiting_;
   std::size_t index_ = 0;
   std::string name_;
 };

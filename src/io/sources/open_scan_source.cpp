@@ -99,8 +99,10 @@ std::unique_ptr<ScanSource> in_order_and_corrected(std::unique_ptr<ScanSource> s
 
 std::unique_ptr<ScanSource> open_live_source(std::shared_ptr<LiveQueue> queue, const SourceOptions& options) {
   check_options(options);
-  auto source = in_order_and_corrected(detail::open_recording("live", detail::open_live(queue), options), options);
-  queue->join(source->info().parts);
+  LiveQueue& live = *queue;  // the source keeps it
+  auto source =
+      in_order_and_corrected(detail::open_recording("live", detail::open_live(std::move(queue)), options), options);
+  live.join(source->info().parts);
   return detail::with_field_warnings(std::move(source), options);
 }
 

@@ -7,8 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "io/sources/read_sweep.hpp"
 #include "io/sources/source_wrappers.hpp"
-#include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
 namespace {
@@ -34,11 +34,10 @@ class PrefetchSource final : public ScanSource {
   std::optional<Sweep> next() override {
     if (ended_) return std::nullopt;
     Item item = pop();
-    current_index_ = item.index;
-    current_name_ = std::move(item.name);
+    current_index_ = item.read.index;
+    current_name_ = std::move(item.read.name);
     info_ = std::move(item.info);
-    if (item.error) std::rethrow_exception(item.error);
-    return std::move(item.sweep);
+    return item.read.take();
   }
 
   std::size_t skip(std::size_t count) override {
@@ -46,8 +45,7 @@ class PrefetchSource final : public ScanSource {
     if (!thread_.joinable()) return ended_ ? 0 : inner_->skip(count);
     std::size_t skipped = 0;
     while (skipped < count && !ended_) {
-      const Item item = pop();
-      if (item.sweep || item.error) ++skipped;
+      if (!pop().read.is_end()) ++skipped;
     }
     return skipped;
   }
@@ -58,13 +56,9 @@ class PrefetchSource final : public ScanSource {
   SourceInfo info() const override { return info_; }
 
  private:
-  // One outcome of the inner next(), with what the inner source said right after it.
   struct Item {
-    std::optional<Sweep> sweep;  // empty with no error: the end
-    std::exception_ptr error;
-    std::size_t index = 0;
-    std::string name;
-    SourceInfo info;
+    ReadSweep read;
+    SourceInfo info;  // right after it
   };
 
   Item pop() {
@@ -73,13 +67,13 @@ class PrefetchSource final : public ScanSource {
     changed_.wait(lock, [this] { return !queue_.empty() || finished_; });
     if (queue_.empty()) {
       ended_ = true;  // by an error, which the first call reports
-      if (!failure_) return {std::nullopt, nullptr, current_index_, current_name_, info_};
-      return {std::nullopt, std::exchange(failure_, nullptr), inner_->current_index(), inner_->current_name(),
+      if (!failure_) return {{std::nullopt, nullptr, current_index_, current_name_}, info_};
+      return {{std::nullopt, std::exchange(failure_, nullptr), inner_->current_index(), inner_->current_name()},
               inner_->info()};
     }
     Item item = std::move(queue_.front());
     queue_.pop_front();
-    ended_ = !item.sweep && !item.error;
+    ended_ = item.read.is_end();
     lock.unlock();
     changed_.notify_all();
     return item;
@@ -105,8 +99,9 @@ class PrefetchSource final : public ScanSource {
         changed_.wait(lock, [this] { return stopping_ || queue_.size() < depth_; });
         if (stopping_) return;
       }
-      Item item = read_one();
-      last = !item.sweep && !item.error;
+      ReadSweep read = read_sweep(*inner_);
+      last = read.is_end();
+      Item item{std::move(read), inner_->info()};
       {
         const std::lock_guard lock(mutex_);
         queue_.push_back(std::move(item));
@@ -114,19 +109,6 @@ class PrefetchSource final : public ScanSource {
       }
       changed_.notify_all();
     }
-  }
-
-  Item read_one() {
-    Item item;
-    try {
-      item.sweep = inner_->next();
-    } catch (const IoError&) {
-      item.error = std::current_exception();
-    }
-    item.index = inner_->current_index();
-    item.name = inner_->current_name();
-    item.info = inner_->info();
-    return item;
   }
 
   std::unique_ptr<ScanSource> inner_;

@@ -221,6 +221,17 @@ TEST(JoinedSource, SkipsWholeSweeps) {
   }
 }
 
+// The end has been seen when the last sweep is shorter than others, or all data were looked at.
+TEST(JoinedSource, TheEndIsNoSweepToSkip) {
+  const auto source = joined(turns_in_parts(6, 4), 0.025, 4);
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(source->next());
+  EXPECT_EQ(source->skip(3), 0U);
+  EXPECT_FALSE(source->next());
+  const auto few = joined(rosette(3, 0.02), 0.02, 0);
+  EXPECT_EQ(few->skip(5), 3U);
+  EXPECT_FALSE(few->next());
+}
+
 TEST(JoinedSource, FewerThanNeededToKnow) {
   const auto source = joined(rosette(3, 0.02), 0.02, 0);
   EXPECT_EQ(source->info().parts, 1U);

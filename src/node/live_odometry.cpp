@@ -187,7 +187,7 @@ class LiveOdometry::Impl {
     }
     const SweepResult result = session_.register_sweep();
     last_stamp_ns_ = result.stamp_ns;
-    health.note_sweep(result, result.stats.times.total_ms);
+    health.note_sweep(result);
     publish(result, session_.last_step_s());
   }
 

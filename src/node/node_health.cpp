@@ -39,14 +39,14 @@ void NodeHealth::note_waiting(const std::string& what) {
   waiting_for_ = what;
 }
 
-void NodeHealth::note_sweep(const SweepResult& result, double total_ms) {
+void NodeHealth::note_sweep(const SweepResult& result) {
   const std::lock_guard lock(mutex_);
   last_ = result;
   ++by_status_.at(static_cast<std::size_t>(result.status));
   ++sweeps_;
-  last_ms_ = total_ms;
-  sum_ms_ += total_ms;
-  most_ms_ = std::max(most_ms_, total_ms);
+  last_ms_ = result.stats.times.total_ms;
+  sum_ms_ += last_ms_;
+  most_ms_ = std::max(most_ms_, last_ms_);
 }
 
 void NodeHealth::note_bad_message(const std::string& why) {

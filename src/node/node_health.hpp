@@ -29,7 +29,7 @@ class NodeHealth {
  public:
   /// What the node is waiting for; empty: nothing but sweeps.
   void note_waiting(const std::string& what);
-  void note_sweep(const SweepResult& result, double total_ms);
+  void note_sweep(const SweepResult& result);
   void note_bad_message(const std::string& why);
   /// `total` messages did not reach the node, as its transport reports.
   void note_lost(std::size_t total);

@@ -25,8 +25,8 @@ LossCause loss_cause(const IcpResult& icp, const Evidence& evidence, const Healt
   return evidence.possible_motion ? LossCause::kNone : LossCause::kImpossibleMotion;
 }
 
-OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
-  if (loss_cause(icp, evidence, config) != LossCause::kNone) {
+OdometryStatus status_of(LossCause cause, const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
+  if (cause != LossCause::kNone) {
     return OdometryStatus::kLost;
   }
   if (evidence.was_lost) {

@@ -30,7 +30,7 @@ bool is_degenerate(const IcpResult& icp, const HealthConfig& config, double unse
 /// Why a registered sweep is lost. kImpossibleMotion: its pose would be right if the motion to it were possible.
 LossCause loss_cause(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
 
-/// Status of a registered sweep.
-OdometryStatus judge(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
+/// Status of a registered sweep; `cause`: why it is lost, if it is.
+OdometryStatus status_of(LossCause cause, const IcpResult& icp, const Evidence& evidence, const HealthConfig& config);
 
 }  // namespace rilo

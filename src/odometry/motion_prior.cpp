@@ -21,6 +21,11 @@ Matrix6d unknown_velocity_covariance() {
   return variance.asDiagonal();
 }
 
+Matrix6d guess_covariance() {
+  constexpr double kGuessS = 1.0;
+  return kGuessS * kGuessS * unknown_velocity_covariance();
+}
+
 MotionState expected_motion(const MotionState& last, double dt_s) {
   MotionState next{last.T_odom_lidar, last.twist};
   next.twist.head<3>() *= std::exp(-dt_s / kTurnMemoryS);

@@ -9,6 +9,9 @@ namespace rilo {
 /// Covariance of an unknown velocity: a car on a motorway, a sensor turned by hand ([rad/s; m/s] squared).
 Matrix6d unknown_velocity_covariance();
 
+/// Covariance of a pose that is a guess ([rad; m] squared): as far as an unknown velocity leads in a second.
+Matrix6d guess_covariance();
+
 /// Power density Q of the acceleration, white noise ([rad/s²; m/s²] squared times s).
 Matrix6d acceleration_density(const MotionPriorConfig& config);
 

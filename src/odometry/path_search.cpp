@@ -27,7 +27,7 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
   const Deadline looks_end = search_.end().after(PoseSearch::kTimeShare);
   std::vector<MotionState> places = path_of(predicted);
   const std::size_t path_size = places.size();
-  if (const std::optional<MotionState> claimed = parts_.tracker.predicted_from_claim()) {
+  if (const std::optional<MotionState> claimed = context_.tracker.predicted_from_claim()) {
     places.push_back(*claimed);
   }
   const SE3 T_found = found.icp.state.T_odom_lidar;
@@ -36,7 +36,7 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
     return;
   }
   const SweepOverlap overlap = overlap_with_last(predicted, found);
-  const PointGrid last = overlap.before(parts_.tracker.trusted().motion());
+  const PointGrid last = overlap.before(context_.tracker.trusted().motion());
   const auto late = [&] { return looks_end.passed(); };
   const std::vector<double> overlaps = overlaps_of(
       places.size(), [&](std::size_t i) { return overlap.at(places[i], last); }, late);
@@ -52,7 +52,7 @@ void PathSearch::improve(const MotionState& predicted, Registration& found) cons
     // What the sensor has turned meanwhile hides what the sweeps have in common until one is registered.
     const auto on_path = std::span(overlaps).first(path_size);
     const auto tried = [&](std::size_t i) { return is_elsewhere(places[i]) && is_peak(on_path, i); };
-    best = parts_.tracker.lost() ? most_of(overlaps, tried) : std::nullopt;
+    best = context_.tracker.lost() ? most_of(overlaps, tried) : std::nullopt;
   }
   if (!best) {
     return;
@@ -76,8 +76,8 @@ Registration PathSearch::registered_from(const MotionState& place) const {
 /// rather than moves, a period apart.
 std::vector<MotionState> PathSearch::path_of(const MotionState& predicted) const {
   const double speed_m_s = predicted.twist.tail<3>().norm();
-  const double reach_s = std::min(kPeriods * parts_.period_s, SweepOverlap::kReachM / std::max(speed_m_s, 1e-9));
-  const double step_s = std::min(parts_.period_s, 2.0 * SweepOverlap::kSigmaM / std::max(speed_m_s, 1e-9));
+  const double reach_s = std::min(kPeriods * context_.period_s, SweepOverlap::kReachM / std::max(speed_m_s, 1e-9));
+  const double step_s = std::min(context_.period_s, 2.0 * SweepOverlap::kSigmaM / std::max(speed_m_s, 1e-9));
   const auto steps = static_cast<int>(std::lround(reach_s / step_s));
   std::vector<MotionState> places;
   for (int k = -steps; k <= steps; ++k) {
@@ -88,9 +88,9 @@ std::vector<MotionState> PathSearch::path_of(const MotionState& predicted) const
 
 /// The sweep as found beside the last one that was accepted.
 SweepOverlap PathSearch::overlap_with_last(const MotionState& predicted, const Registration& found) const {
-  const LocalMap planes = search_.map_of(parts_.prepared.map_cloud, found.icp.state);
-  SweepOverlap overlap({parts_.initial_pose.last_source(), parts_.tracker.trusted(), parts_.map.map()},
-                       {parts_.prepared.source, found.icp.state, planes});
+  const LocalMap planes = search_.map_of(context_.prepared.map_cloud, found.icp.state);
+  SweepOverlap overlap({context_.initial_pose.last_source(), context_.tracker.trusted(), context_.map.map()},
+                       {context_.prepared.source, found.icp.state, planes});
   overlap.look_along(predicted.twist_in_odom());
   return overlap;
 }

@@ -9,10 +9,10 @@
 namespace rilo {
 
 /// Looks earlier and later along the predicted motion, and where the sweep before fitted, for the place where the sweep
-/// has most in common with the last one that was accepted; the parts and the search outlive it.
+/// has most in common with the last one that was accepted; the context and the search outlive it.
 class PathSearch {
  public:
-  PathSearch(const RegistrationParts& parts, const PoseSearch& search) : parts_(parts), search_(search) {}
+  PathSearch(const RegistrationContext& context, const PoseSearch& search) : context_(context), search_(search) {}
 
   /// Replaces `found` where the sweep has clearly more in common at another of these places and settles there. Where it
   /// does not settle, `found` is ambiguous. After a loss, it may show that it has more only once it has settled.
@@ -23,7 +23,7 @@ class PathSearch {
   Registration registered_from(const MotionState& place) const;
   std::vector<MotionState> path_of(const MotionState& predicted) const;
 
-  const RegistrationParts& parts_;
+  const RegistrationContext& context_;
   const PoseSearch& search_;
 };
 

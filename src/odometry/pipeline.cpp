@@ -52,7 +52,7 @@ void Pipeline::process(const SweepView& sweep, SweepResult& result) {
   const PreparedSweep& prepared = prepare(sweep, result);
   if (prepared.source.points.empty() || repeated_) {
     result.status = OdometryStatus::kEmpty;
-    result.covariance = unknown_velocity_covariance();
+    result.covariance = guess_covariance();
     if (map_.sweeps() > 0) {
       // A simulated sensor without noise, at rest, sees the sweep before again.
       const MotionState at_rest{tracker_.state().T_odom_lidar, Vector6d::Zero()};
@@ -146,7 +146,7 @@ InitialPose Pipeline::choose_initial_pose(const PreparedSweep& prepared, const M
   return init;
 }
 
-RegistrationParts Pipeline::registration_parts(const PreparedSweep& prepared) {
+RegistrationContext Pipeline::registration_context(const PreparedSweep& prepared) {
   const auto map_points = static_cast<double>(prepared.map_cloud.size());
   return {.config = config_,
           .prepared = prepared,
@@ -171,7 +171,7 @@ Registration Pipeline::register_finely(const PreparedSweep& prepared, const Moti
     const auto first_points = static_cast<double>(map_.first_cloud().size());
     map_.thin_first(std::min(1.0, static_cast<double>(prepared.map_cloud.size()) / first_points));
   }
-  Registration registration = fine_registration(registration_parts(prepared), predicted, init);
+  Registration registration = fine_registration(registration_context(prepared), predicted, init);
   const IcpResult& icp = registration.icp;
   const bool new_first_map = registration.first && registration.first->map;
   registration.stands_out =

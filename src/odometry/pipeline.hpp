@@ -47,7 +47,7 @@ class Pipeline {
   void register_to_map(const PreparedSweep& prepared, SweepResult& result);
   MotionState predict(const PreparedSweep& prepared);
   InitialPose choose_initial_pose(const PreparedSweep& prepared, const MotionState& predicted, SweepResult& result);
-  RegistrationParts registration_parts(const PreparedSweep& prepared);
+  RegistrationContext registration_context(const PreparedSweep& prepared);
   Registration register_finely(const PreparedSweep& prepared, const MotionState& predicted, const InitialPose& init,
                                SweepResult& result);
   Judgement judge(const PreparedSweep& prepared, const Registration& registration, SweepResult& result);

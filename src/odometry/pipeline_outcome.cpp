@@ -68,7 +68,7 @@ Matrix6d Pipeline::covariance_of(const PreparedSweep& prepared, const Registrati
 
 void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted, const std::optional<SE3>& claim,
                     SweepResult& result) {
-  result.covariance = unknown_velocity_covariance();
+  result.covariance = guess_covariance();
   if (map_.sweeps() > 1) {
     threshold_.widen();  // the second sweep has no prediction that could be off
   }

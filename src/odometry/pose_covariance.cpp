@@ -30,8 +30,8 @@ Matrix6d PoseCovariance::of(const IcpResult& icp, bool degenerate, const Vector6
                             const Vector6d& uneven) {
   Matrix12d information = icp.posterior_information;
   // No less than is known of a guess: without the prior a direction may not be seen at all.
-  const Vector6d least = unknown_velocity_covariance().diagonal().cwiseInverse();
-  information.diagonal() += (Vector12d() << least, least).finished();
+  information.diagonal().head<6>() += guess_covariance().diagonal().cwiseInverse();
+  information.diagonal().tail<6>() += unknown_velocity_covariance().diagonal().cwiseInverse();
   if (!degenerate) {
     information += (kEvidenceWorth - 1.0) * icp.sweep_information;
   }

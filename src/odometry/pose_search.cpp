@@ -14,21 +14,21 @@ namespace {
 constexpr double kSearchEpsilon = 0.1;
 }  // namespace
 
-PoseSearch::PoseSearch(const RegistrationParts& parts)
-    : parts_(parts),
-      end_(parts.tracker.lost() ? parts.deadline.after(kTimeShare) : parts.deadline),
-      icp_(parts.config.icp) {
+PoseSearch::PoseSearch(const RegistrationContext& context)
+    : context_(context),
+      end_(context.tracker.lost() ? context.deadline.after(kTimeShare) : context.deadline),
+      icp_(context.config.icp) {
   icp_.epsilon *= kSearchEpsilon;
 }
 
 Registration PoseSearch::to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m,
                                 const AdaptiveIcpConfig& icp, const Deadline& deadline) const {
   Registration found;
-  found.icp = adaptive_icp(parts_.prepared.source, parts_.map.map(), start, prior, sigma_th_m, icp, deadline);
+  found.icp = adaptive_icp(context_.prepared.source, context_.map.map(), start, prior, sigma_th_m, icp, deadline);
   found.T_init = start.T_odom_lidar;
   found.sigma_th_m = sigma_th_m;
   narrow(found, prior, icp, deadline);
-  rate(found, parts_.map.map());
+  rate(found, context_.map.map());
   return found;
 }
 
@@ -36,7 +36,7 @@ Registration PoseSearch::to_map(const MotionState& start, const MotionPrior& pri
 // pose.
 void PoseSearch::narrow(Registration& found, const MotionPrior& prior, AdaptiveIcpConfig icp,
                         const Deadline& deadline) const {
-  const AdaptiveThresholdConfig& threshold = parts_.config.threshold;
+  const AdaptiveThresholdConfig& threshold = context_.config.threshold;
   if (!icp.adaptive || threshold.narrowing <= 1.0) return;
   icp.coarse_stride = 1;
   // Less than half a step is not worth its iterations.
@@ -44,26 +44,26 @@ void PoseSearch::narrow(Registration& found, const MotionPrior& prior, AdaptiveI
   while (found.sigma_th_m > narrow_enough_m && found.icp.termination == IcpTermination::kConverged) {
     found.sigma_th_m = std::max(found.sigma_th_m / threshold.narrowing, threshold.floor_m);
     const int iterations = found.icp.iterations;
-    found.icp =
-        adaptive_icp(parts_.prepared.source, parts_.map.map(), found.icp.state, prior, found.sigma_th_m, icp, deadline);
+    found.icp = adaptive_icp(context_.prepared.source, context_.map.map(), found.icp.state, prior, found.sigma_th_m,
+                             icp, deadline);
     found.icp.iterations += iterations;
   }
 }
 
 Registration PoseSearch::from(const MotionState& start) const {
-  return to_map(start, parts_.tracker.prior(start), parts_.sigma_th_m, icp_, end_);
+  return to_map(start, context_.tracker.prior(start), context_.sigma_th_m, icp_, end_);
 }
 
 void PoseSearch::rate(Registration& found, const LocalMap& map) const {
-  found.score = parts_.initial_pose.score(parts_.prepared.source, found.icp.state, map);
+  found.score = context_.initial_pose.score(context_.prepared.source, found.icp.state, map);
   // The threshold grows tenfold when a vehicle moves off: within it residuals would, too.
-  const RegisteredSource sweep{parts_.prepared.source, found.icp.state, parts_.config.threshold.floor_m,
-                               parts_.config.icp, kSparseStride};
+  const RegisteredSource sweep{context_.prepared.source, found.icp.state, context_.config.threshold.floor_m,
+                               context_.config.icp, kSparseStride};
   found.quality = quality_of(closeness(sweep, map), found.score);
 }
 
 LocalMap PoseSearch::map_of(const TimedCloud& cloud, const MotionState& state) const {
-  return parts_.map.of_sweep(cloud, state, parts_.prepared.scene_range_m, parts_.pose_by_elevation);
+  return context_.map.of_sweep(cloud, state, context_.prepared.scene_range_m, context_.pose_by_elevation);
 }
 
 }  // namespace rilo

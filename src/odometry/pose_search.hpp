@@ -5,13 +5,13 @@
 
 namespace rilo {
 
-/// Searches the pose of one sweep; its state is that of the parts, which outlive it.
+/// Searches the pose of one sweep; its state is that of the context, which outlive it.
 class PoseSearch {
  public:
   /// Of the time left; after a loss, what was found has to hold in the rest of it.
   static constexpr double kTimeShare = 0.7;
 
-  explicit PoseSearch(const RegistrationParts& parts);
+  explicit PoseSearch(const RegistrationContext& context);
 
   /// When the search ends.
   const Deadline& end() const { return end_; }
@@ -32,7 +32,7 @@ class PoseSearch {
  private:
   void narrow(Registration& found, const MotionPrior& prior, AdaptiveIcpConfig icp, const Deadline& deadline) const;
 
-  const RegistrationParts& parts_;
+  const RegistrationContext& context_;
   Deadline end_;
   AdaptiveIcpConfig icp_;
 };

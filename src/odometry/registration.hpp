@@ -34,7 +34,7 @@ struct Registration {
 };
 
 /// The sweep and the state of the odometry that registering it reads; they outlive it.
-struct RegistrationParts {
+struct RegistrationContext {
   const OdometryConfig& config;
   const PreparedSweep& prepared;
   const MotionTracker& tracker;

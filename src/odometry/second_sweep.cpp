@@ -22,16 +22,16 @@ constexpr int kLooks = 3;                // the first result may be turned, too
 constexpr Eigen::Index kDirections = 2;  // of translations, in which other places are looked at
 }  // namespace
 
-SecondSweep::SecondSweep(const RegistrationParts& parts, const PoseSearch& search)
-    : parts_(parts),
+SecondSweep::SecondSweep(const RegistrationContext& context, const PoseSearch& search)
+    : context_(context),
       search_(search),
-      source_(thinned(parts.prepared.source, kDraftShare)),
-      map_cloud_(thinned(parts.prepared.map_cloud, kDraftShare)),
-      first_(thinned(parts.map.first_cloud(), kDraftShare)) {}
+      source_(thinned(context.prepared.source, kDraftShare)),
+      map_cloud_(thinned(context.prepared.map_cloud, kDraftShare)),
+      first_(thinned(context.map.first_cloud(), kDraftShare)) {}
 
 Registration SecondSweep::registered(const MotionState& start, const MotionPrior& prior) const {
   Registration found = in_rounds(start, prior, kRounds);
-  found.cut = search_.end().passed_after(parts_.first_map_ms);
+  found.cut = search_.end().passed_after(context_.first_map_ms);
   if (!found.cut) {
     move_to_most_overlap(found);
   }
@@ -40,30 +40,30 @@ Registration SecondSweep::registered(const MotionState& start, const MotionPrior
 
 /// The map of the first sweep, or of some of its points, compensated for a velocity, if it carries times.
 std::optional<LocalMap> SecondSweep::of_first_sweep(const TimedCloud& first, const Vector6d& twist) const {
-  if (!parts_.map.first_can_be_compensated()) {
+  if (!context_.map.first_can_be_compensated()) {
     return std::nullopt;
   }
-  return parts_.map.first_compensated(first, twist, parts_.prepared.scene_range_m, parts_.pose_by_elevation);
+  return context_.map.first_compensated(first, twist, context_.prepared.scene_range_m, context_.pose_by_elevation);
 }
 
 /// That map, or the present one where the first sweep cannot be compensated.
 const LocalMap& SecondSweep::or_present(const std::optional<LocalMap>& compensated) const {
-  return compensated ? *compensated : parts_.map.map();
+  return compensated ? *compensated : context_.map.map();
 }
 
 /// Velocity of the first sweep, from its registration to the second one: a sensor that speeds up or turns in between
 /// has another. The pose found beside it says nothing, since the first sweep is where the map begins.
 Vector6d SecondSweep::twist_of_first(const IcpResult& second, double sigma_m, const Deadline& deadline) const {
   const LocalMap map = search_.map_of(map_cloud_, second.state);
-  const MotionState start{parts_.tracker.trusted().T_odom_lidar, second.state.twist};
+  const MotionState start{context_.tracker.trusted().T_odom_lidar, second.state.twist};
   const IcpResult first =
-      adaptive_icp(first_, map, start, parts_.tracker.prior_before(second), sigma_m, search_.icp(), deadline);
+      adaptive_icp(first_, map, start, context_.tracker.prior_before(second), sigma_m, search_.icp(), deadline);
   return (first.converged() ? first : second).state.twist;
 }
 
 /// A draft takes a share of the time of the last round, which it must leave.
 bool SecondSweep::too_late_for_two_rounds() const {
-  return parts_.deadline.passed_after((1.0 + 2.0 * kDraftShare) * parts_.first_map_ms);
+  return context_.deadline.passed_after((1.0 + 2.0 * kDraftShare) * context_.first_map_ms);
 }
 
 /// The first sweep went into the map as if the sensor had stood still. It is compensated with the velocity that the
@@ -84,14 +84,14 @@ Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior&
   for (int round = kRounds - rounds; !last; ++round) {
     last = too_late_for_two_rounds() || round + 1 == kRounds;
     // Each round starts nearer.
-    const double sigma_m = std::max(std::ldexp(parts_.sigma_th_m, -round), parts_.config.threshold.floor_m);
+    const double sigma_m = std::max(std::ldexp(context_.sigma_th_m, -round), context_.config.threshold.floor_m);
     const Deadline round_end = search_.end().after(1.0 / (kRounds - round));
-    if (iterations > 0 && parts_.map.first_can_be_compensated()) {
+    if (iterations > 0 && context_.map.first_can_be_compensated()) {
       twist = twist_of_first(found.icp, sigma_m, round_end.after(0.5));
     }
-    found.first = FirstSweep{of_first_sweep(last ? parts_.map.first_cloud() : first_, twist), twist};
-    const MotionPrior prior = iterations == 0 ? first_prior : parts_.tracker.prior(found.icp.state);
-    found.icp = adaptive_icp(last ? parts_.prepared.source : source_, or_present(found.first->map), found.icp.state,
+    found.first = FirstSweep{of_first_sweep(last ? context_.map.first_cloud() : first_, twist), twist};
+    const MotionPrior prior = iterations == 0 ? first_prior : context_.tracker.prior(found.icp.state);
+    found.icp = adaptive_icp(last ? context_.prepared.source : source_, or_present(found.first->map), found.icp.state,
                              prior, sigma_m, icp, round_end);
     found.sigma_th_m = sigma_m;
     iterations += found.icp.iterations;
@@ -106,24 +106,24 @@ Registration SecondSweep::in_rounds(const MotionState& start, const MotionPrior&
 
 /// The sweep as found beside the first one.
 SweepOverlap SecondSweep::overlap_with_first(const Registration& found) const {
-  const LocalMap planes = search_.map_of(parts_.prepared.map_cloud, found.icp.state);
-  const SE3& origin = parts_.tracker.trusted().T_odom_lidar;
-  return {{parts_.map.first_cloud(), {origin, found.first->twist}, or_present(found.first->map)},
-          {parts_.prepared.source, found.icp.state, planes}};
+  const LocalMap planes = search_.map_of(context_.prepared.map_cloud, found.icp.state);
+  const SE3& origin = context_.tracker.trusted().T_odom_lidar;
+  return {{context_.map.first_cloud(), {origin, found.first->twist}, or_present(found.first->map)},
+          {context_.prepared.source, found.icp.state, planes}};
 }
 
 /// The sensor there instead, with the velocity that this implies.
 MotionState SecondSweep::moved(const MotionState& state, const Eigen::Vector3d& by_m) const {
   SE3 T = state.T_odom_lidar;
   T.translation() += by_m;
-  return {T, parts_.tracker.implied_twist(T)};
+  return {T, context_.tracker.implied_twist(T)};
 }
 
 /// Other places along a direction, as far as a sensor may have moved.
 std::vector<MotionState> SecondSweep::places_along(const Registration& found, const Eigen::Vector3d& direction) const {
-  const Eigen::Vector3d& origin = parts_.tracker.trusted().T_odom_lidar.translation();
+  const Eigen::Vector3d& origin = context_.tracker.trusted().T_odom_lidar.translation();
   const double found_m = direction.dot(found.icp.state.T_odom_lidar.translation() - origin);
-  const double reach_m = std::min(kMostSpeed * parts_.tracker.since_trusted_s(), SweepOverlap::kReachM);
+  const double reach_m = std::min(kMostSpeed * context_.tracker.since_trusted_s(), SweepOverlap::kReachM);
   const auto steps = [](double way_m) { return static_cast<int>(std::lround(way_m / SweepOverlap::kSigmaM)); };
   std::vector<MotionState> places;
   for (int k = steps(-reach_m - found_m); k <= steps(reach_m - found_m); ++k) {
@@ -136,7 +136,7 @@ std::vector<MotionState> SecondSweep::places_along(const Registration& found, co
 
 /// How many times what speaks for another place must speak for this one.
 double SecondSweep::times_asked(const Registration& found) const {
-  const SE3& origin = parts_.tracker.trusted().T_odom_lidar;
+  const SE3& origin = context_.tracker.trusted().T_odom_lidar;
   const double moved_m = (found.icp.state.T_odom_lidar.translation() - origin.translation()).norm();
   return moved_m < SweepOverlap::kSigmaM ? kTimesAtRest : kTimesMoving;
 }
@@ -154,7 +154,7 @@ std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direc
   const auto matches_at = [&](const MotionState& place) {
     return overlap.matches(place, overlap.before({place.twist}));
   };
-  const auto late = [&] { return parts_.deadline.passed_after(parts_.first_map_ms); };
+  const auto late = [&] { return context_.deadline.passed_after(context_.first_map_ms); };
   const std::vector<double> of_found = matches_of(found);
   const double here = mean_match(of_found);
   const std::vector<MotionState> places = places_along(found, direction);
@@ -180,7 +180,7 @@ std::optional<Registration> SecondSweep::more_along(const Eigen::Vector3d& direc
   const std::vector<MotionState> around{places[most], moved(places[most], -half_step), moved(places[most], half_step)};
   const MotionState& there = around[most_of(overlaps_of(
       around.size(), [&](std::size_t i) { return mean_match(matches_at(around[i])); }, late))];
-  Registration other = in_rounds(there, parts_.tracker.prior(there), 1);
+  Registration other = in_rounds(there, context_.tracker.prior(there), 1);
   other.starts = ++found.starts;
   return mean_match(matches_of(other)) > here ? std::optional(std::move(other)) : std::nullopt;
 }

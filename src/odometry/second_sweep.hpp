@@ -9,11 +9,11 @@
 
 namespace rilo {
 
-/// Registers it from the initial pose and from other places where no motion is known yet; the parts and the search
+/// Registers it from the initial pose and from other places where no motion is known yet; the context and the search
 /// outlive it.
 class SecondSweep {
  public:
-  SecondSweep(const RegistrationParts& parts, const PoseSearch& search);
+  SecondSweep(const RegistrationContext& context, const PoseSearch& search);
 
   Registration registered(const MotionState& start, const MotionPrior& prior) const;
 
@@ -31,7 +31,7 @@ class SecondSweep {
   const LocalMap& or_present(const std::optional<LocalMap>& compensated) const;
   Vector6d twist_of_first(const IcpResult& second, double sigma_m, const Deadline& deadline) const;
 
-  const RegistrationParts& parts_;
+  const RegistrationContext& context_;
   const PoseSearch& search_;
   // A share of the points of both sweeps, for all registrations but the last of a start.
   TimedCloud source_;

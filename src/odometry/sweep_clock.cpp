@@ -29,7 +29,7 @@ SweepTime SweepClock::advance(std::int64_t given_ns, std::int64_t to_middle_ns) 
   if (!begun_) {
     begun_ = true;
     stamp_ns_ = given_ns_ = believed_ns_ = std::min(given_ns, kLatestNs);
-    return {stamp_ns_, 0, 0, true};
+    return {stamp_ns_, 0, 0};
   }
   const std::int64_t from_believed = difference(difference(given_ns, believed_ns_), since_ns_);
   const std::int64_t from_last = difference(given_ns, given_ns_);
@@ -37,13 +37,13 @@ SweepTime SweepClock::advance(std::int64_t given_ns, std::int64_t to_middle_ns) 
   const bool goes_on = believable(from_believed);
   const bool was_set = !goes_on && believable(from_last);
   const std::int64_t step_ns = goes_on ? from_believed : was_set ? from_last : period_ns();
-  SweepTime time{0, step_ns, step_ns, goes_on || was_set};
+  SweepTime time{0, step_ns, step_ns};
   time.stamp_ns = stamp_ns_ = std::min(stamp_ns_, kLatestNs) + time.step_ns;
   if (was_set && given_ns > stamp_ns_ && given_ns < kLatestNs) {
     time.stamp_ns = stamp_ns_ = given_ns;  // set forward: the stamps of the poses follow
   }
   given_ns_ = given_ns;
-  if (time.believed) {
+  if (goes_on || was_set) {
     const std::int64_t turn_ns = difference(time.step_ns, shift_ns);
     if (turn_ns >= kShortestStepNs) {  // else the times of the points go on in place of the stamps
       remember(turn_ns);

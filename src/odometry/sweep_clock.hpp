@@ -12,7 +12,6 @@ struct SweepTime {
   std::int64_t stamp_ns = 0;  ///< of the pose; increases from sweep to sweep
   std::int64_t step_ns = 0;   ///< time since the sweep before, > 0; 0 for the first
   std::int64_t even_ns = 0;   ///< the same for a sensor that spins evenly: a whole number of mean periods
-  bool believed = true;       ///< false: the stamp could not be used, the step is a guess of one period
 };
 
 /// Takes steps between stamps as they are where a sensor can have made them; elsewhere a period has passed. A stamp

@@ -46,8 +46,8 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.shrunk = prepared.median_range_m < kShrunk * median_range_m_;
   evidence.cut_off = cut_off(registration.icp, prepared.median_range_m);
   evidence.possible_motion = motion != MotionVerdict::kImpossible;
-  return {rilo::judge(registration.icp, evidence, config_), motion,
-          rilo::loss_cause(registration.icp, evidence, config_)};
+  const LossCause cause = loss_cause(registration.icp, evidence, config_);
+  return {status_of(cause, registration.icp, evidence, config_), motion, cause};
 }
 
 SweepJudge::View SweepJudge::view_of(const Registration& registration, const JudgedAgainst& before) const {

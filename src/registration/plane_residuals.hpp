@@ -19,6 +19,27 @@ inline constexpr std::size_t kSampleStride = 4;
 /// ... and for what only has to be about right.
 inline constexpr std::size_t kSparseStride = 8;
 
+/// β_k, the weight of a residual (eq. 21).
+class ResidualWeight {
+ public:
+  /// `sigma_th_m`: scale of the weights, not used with `config.adaptive` off.
+  ResidualWeight(const AdaptiveIcpConfig& config, double sigma_th_m)
+      : adaptive_(config.adaptive),
+        sigma2_(sigma_th_m * sigma_th_m),
+        gate2_(std::pow(config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m, 2)) {}
+
+  /// 0 beyond the gate. `share`: of the squared distance that counts, because the surface scatters along it.
+  double of(double distance_m, double share = 1.0) const {
+    const double e2 = share * distance_m * distance_m;
+    return e2 > gate2_ ? 0.0 : share * (adaptive_ ? sigma2_ / (sigma2_ + e2) : 1.0);
+  }
+
+ private:
+  bool adaptive_;
+  double sigma2_;
+  double gate2_;
+};
+
 /// A point and its surface element.
 struct PlaneResidual {
   std::size_t index = 0;   ///< of the point in the sweep
@@ -38,9 +59,6 @@ struct RegisteredSource {
   const AdaptiveIcpConfig& config;
   std::size_t stride = 1;
 
-  /// Larger residuals are skipped.
-  double gate_m() const { return config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m; }
-
   std::size_t used() const { return (source.size() + stride - 1) / stride; }
 };
 
@@ -49,9 +67,7 @@ template <typename Use>
 void for_each_residual(const RegisteredSource& sweep, const LocalMap& map, const Use& use) {
   const Eigen::Matrix3d R = sweep.state.T_odom_lidar.linear();
   const Eigen::Vector3d t = sweep.state.T_odom_lidar.translation();
-  const double sigma2 = sweep.sigma_th_m * sweep.sigma_th_m;
-  const double gate_m = sweep.gate_m();
-  const bool adaptive = sweep.config.adaptive;
+  const ResidualWeight weight(sweep.config, sweep.sigma_th_m);
   const SweepMotion motion = SweepMotion::during(sweep.source, sweep.state.motion());
   for_fixed_chunks(sweep.used(), [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     const auto point_at = [&](std::size_t k) { return motion.compensated(sweep.source, k * sweep.stride); };
@@ -59,10 +75,8 @@ void for_each_residual(const RegisteredSource& sweep, const LocalMap& map, const
     map.visit(begin, end, world_at, [&](std::size_t k, const Eigen::Vector3d& world, const PlaneSpot& spot) {
       const MapPlane plane = spot.grid->plane_at(spot);
       const double e = plane.normal.dot(world - plane.point);
-      if (std::abs(e) <= gate_m) {
-        const auto of_plane = static_cast<double>(plane.weight);
-        const double weight = adaptive ? of_plane * sigma2 / (sigma2 + e * e) : of_plane;
-        use(chunk, PlaneResidual{k * sweep.stride, point_at(k), world, spot, plane, e, weight});
+      if (const double beta = static_cast<double>(plane.weight) * weight.of(e); beta > 0.0) {
+        use(chunk, PlaneResidual{k * sweep.stride, point_at(k), world, spot, plane, e, beta});
       }
     });
   });

@@ -37,14 +37,12 @@ class Equations {
         block_(sums, refine_),
         source_(source),
         state_(state),
-        adaptive_(config.adaptive),
-        sigma2_(sigma_th_m * sigma_th_m),
-        gate2_(std::pow(config.adaptive ? config.gate * sigma_th_m : config.fixed_gate_m, 2)),
+        weight_(config, sigma_th_m),
         scatter_noise2_(config.scatter_noise_m * config.scatter_noise_m) {}
 
   /// Distance of the point `i` of the source, at `q` from the sensor, from a plane; returns its weight β_k.
   double add(std::size_t i, const Eigen::Vector3f& q, const Eigen::Vector3f& normal, double distance_m, double weight) {
-    const double beta = weight * weight_of(distance_m, 1.0);
+    const double beta = weight * weight_.of(distance_m);
     if (beta > 0.0) {
       block_.add(q, normal, distance_m, beta, lever_s(i));
     }
@@ -56,7 +54,7 @@ class Equations {
     const Eigen::Vector3d e = scatter.axes.transpose() * (world - scatter.mean);
     for (int axis = 0; axis < 3; ++axis) {
       const double share = scatter.bounded[axis] * scatter_noise2_ / (scatter_noise2_ + scatter.variances[axis]);
-      const double beta = scatter.weight * weight_of(e[axis], share);
+      const double beta = scatter.weight * weight_.of(e[axis], share);
       if (beta > 0.0) {
         block_.add(q, scatter.axes.col(axis).cast<float>(), e[axis], beta, lever_s(i));
       }
@@ -66,12 +64,6 @@ class Equations {
   void finish() { block_.flush(); }
 
  private:
-  /// `share`: of the squared distance that counts, because the surface scatters along that direction.
-  double weight_of(double distance_m, double share) const {
-    const double e2 = share * distance_m * distance_m;
-    return e2 > gate2_ ? 0.0 : share * (adaptive_ ? sigma2_ / (sigma2_ + e2) : 1.0);
-  }
-
   /// 0 leaves the velocity out.
   double lever_s(std::size_t i) const {
     return refine_ ? state_.velocity_lever_s(static_cast<double>(source_.offsets_s[i])) : 0.0;
@@ -81,9 +73,7 @@ class Equations {
   ResidualBlock block_;
   const TimedCloud& source_;
   const MotionState& state_;
-  bool adaptive_;
-  double sigma2_;
-  double gate2_;
+  ResidualWeight weight_;
   double scatter_noise2_;
 };
 

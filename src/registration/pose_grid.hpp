@@ -14,10 +14,10 @@ namespace rilo {
 
 /// Grid of poses around a centre: yaw about the sensor's own z axis, then shifts along its x and y axes.
 struct PoseGrid {
-  double max_shift_m = 4.0;
-  double shift_step_m = 0.5;
-  double max_yaw_rad = 0.0;
-  double yaw_step_rad = 0.1;
+  double max_shift_m = 0;
+  double shift_step_m = 0;
+  double max_yaw_rad = 0;
+  double yaw_step_rad = 0;
 };
 
 /// The `keep` best poses of the grid around `centre` by map_score(), best first, no two of them closer than two steps

@@ -16,9 +16,10 @@ std::string figure(const StatusMessage& status, const std::string& key) {
   return found == status.values.end() ? "none" : found->second;
 }
 
-SweepResult with_status(OdometryStatus status) {
+SweepResult with_status(OdometryStatus status, double ms) {
   SweepResult result;
   result.status = status;
+  result.stats.times.total_ms = ms;
   return result;
 }
 
@@ -36,7 +37,7 @@ TEST(NodeHealth, TellsTheLevelOfTheLastSweep) {
   NodeHealth health;
   std::size_t received = 0;
   const auto level = [&](OdometryStatus status) {
-    health.note_sweep(with_status(status), 20);
+    health.note_sweep(with_status(status, 20));
     return health.report({++received, 0, 0}).level;
   };
   EXPECT_EQ(level(OdometryStatus::kOk), NodeLevel::kOk);
@@ -45,9 +46,9 @@ TEST(NodeHealth, TellsTheLevelOfTheLastSweep) {
   EXPECT_EQ(level(OdometryStatus::kRecovered), NodeLevel::kWarn);
   EXPECT_EQ(level(OdometryStatus::kLost), NodeLevel::kError);
   EXPECT_EQ(level(OdometryStatus::kEmpty), NodeLevel::kError);
-  SweepResult lost = with_status(OdometryStatus::kLost);
+  SweepResult lost = with_status(OdometryStatus::kLost, 20);
   lost.stats.loss_cause = LossCause::kFitsBeside;
-  health.note_sweep(lost, 20);
+  health.note_sweep(lost);
   EXPECT_EQ(health.report({++received, 0, 0}).message, "lost (fits_beside)");
   health.note_reset();
   const StatusMessage reset = health.report({++received, 0, 0});
@@ -59,7 +60,7 @@ TEST(NodeHealth, TellsTheLevelOfTheLastSweep) {
 
 TEST(NodeHealth, WhatIsLostIsToldOnceAndCountedForEver) {
   NodeHealth health;
-  health.note_sweep(with_status(OdometryStatus::kDegenerate), 1);
+  health.note_sweep(with_status(OdometryStatus::kDegenerate, 1));
   health.note_bad_message("no x");
   health.note_lost(3);
   const StatusMessage first = health.report({10, 2, 0});
@@ -79,15 +80,15 @@ TEST(NodeHealth, WhenNoMessageCanBeReadItIsAnError) {
   health.note_bad_message("of another frame");
   EXPECT_EQ(health.report({1, 0, 0}).level, NodeLevel::kError);
   health.note_bad_message("of another frame");
-  health.note_sweep(with_status(OdometryStatus::kOk), 1);
+  health.note_sweep(with_status(OdometryStatus::kOk, 1));
   EXPECT_EQ(health.report({3, 0, 0}).level, NodeLevel::kWarn);
 }
 
 // Of what was counted before, only what came since the last report.
 TEST(NodeHealth, ReportsTellWhatIsNewAndTheWorstOfIt) {
   NodeHealth health;
-  health.note_sweep(with_status(OdometryStatus::kLost), 30);
-  health.note_sweep(with_status(OdometryStatus::kLost), 10);
+  health.note_sweep(with_status(OdometryStatus::kLost, 30));
+  health.note_sweep(with_status(OdometryStatus::kLost, 10));
   health.note_lost(3);
   health.report({10, 2, 0});
   health.note_lost(5);
@@ -104,7 +105,7 @@ TEST(NodeHealth, ReportsTellWhatIsNewAndTheWorstOfIt) {
 
 TEST(NodeHealth, SilenceIsStale) {
   NodeHealth health;
-  health.note_sweep(with_status(OdometryStatus::kOk), 1);
+  health.note_sweep(with_status(OdometryStatus::kOk, 1));
   for (int i = 0; i < 5; ++i) EXPECT_EQ(health.report({1, 0, 0}).level, NodeLevel::kOk);
   EXPECT_EQ(health.report({1, 0, 0}).level, NodeLevel::kStale);
   EXPECT_EQ(health.report({2, 0, 0}).level, NodeLevel::kOk);

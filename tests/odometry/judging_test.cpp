@@ -23,6 +23,10 @@ Evidence evidence(double score) {
   return e;
 }
 
+OdometryStatus judge(const IcpResult& icp, const Evidence& e, const HealthConfig& config) {
+  return status_of(loss_cause(icp, e, config), icp, e, config);
+}
+
 const HealthConfig kHealth;  // half of the usual score, in a young map never below 0.1
 
 TEST(Judging, TheScoreMustBeNearTheUsualOne) {

@@ -21,9 +21,9 @@ TEST(Reach, IsTheRandomWalkOfTheVelocity) {
   icp.state.twist << 0.0, 0.0, 0.5, 10.0, 0.0, 0.0;
   icp.posterior_information.setIdentity();
   icp.posterior_information.bottomRightCorner<6, 6>() *= 1e8;  // the velocity is certain
-  tracker.advance({0, 100'000'000, 100'000'000, true});
+  tracker.advance({0, 100'000'000, 100'000'000});
   tracker.accept(icp, MotionVerdict::kPossible, false);
-  tracker.advance({0, 2'000'000'000, 2'000'000'000, true});
+  tracker.advance({0, 2'000'000'000, 2'000'000'000});
   const Reach reach = tracker.reach();
   EXPECT_NEAR(reach.sigma_m, std::sqrt(10.0 * 10.0 * 0.1 * 8.0 / 3.0), 1e-3);  // acceleration² · 0.1 s · t³ / 3
   EXPECT_NEAR(reach.sigma_rad, std::sqrt(2.0 * 2.0 * 0.1 * 8.0 / 3.0), 1e-3);

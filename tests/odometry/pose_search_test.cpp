@@ -75,10 +75,10 @@ class PoseSearches : public ::testing::Test {
     map_.insert(world, {}, {});
     tracker_.begin({along(-2.0)});
     for (const double x : {-1.0, 0.0}) {
-      tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
+      tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs});
       tracker_.accept(state_at(x), MotionVerdict::kPossible, false);
     }
-    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
+    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs});
     initial_pose_.keep_target({road(0.0, 20.0, 0.03, 0.01, panels)}, tracker_.trusted().twist);
   }
 
@@ -95,7 +95,7 @@ class PoseSearches : public ::testing::Test {
     prepared_.scene_range_m = 8.0;
   }
 
-  RegistrationParts parts() {
+  RegistrationContext context() {
     return {.config = config_,
             .prepared = prepared_,
             .tracker = tracker_,
@@ -109,7 +109,7 @@ class PoseSearches : public ::testing::Test {
 
   MotionState predicted() const { return tracker_.predicted(0.1); }
 
-  Registration at_the_prediction(const RegistrationParts& parts) const {
+  Registration at_the_prediction(const RegistrationContext& parts) const {
     return PoseSearch(parts).to_map(predicted(), tracker_.prior(std::nullopt), 0.1, config_.icp, {});
   }
 
@@ -132,7 +132,7 @@ TEST_F(PoseSearches, QualityIsThatOfThePoseWhateverTheThreshold) {
   map_road(kIrregular);
   see_road(1.0, kIrregular);
   for (std::size_t i = 0; i < prepared_.source.points.size(); i += 4) prepared_.source.points[i].y() += 0.25F;
-  const RegistrationParts all = parts();
+  const RegistrationContext all = context();
   const auto with = [&](double sigma_th_m) {
     return PoseSearch(all).to_map(predicted(), tracker_.prior(std::nullopt), sigma_th_m, config_.icp, {});
   };
@@ -149,7 +149,7 @@ TEST_F(PoseSearches, OnceConvergedTheScaleGoesDownToThatOfTheNoise) {
   for (std::size_t i = 0; i < prepared_.source.points.size(); i += 4) prepared_.source.points[i].y() += 0.25F;
   const auto found_with = [&](double narrowing, double sigma_th_m) {
     config_.threshold.narrowing = narrowing;
-    const RegistrationParts all = parts();
+    const RegistrationContext all = context();
     return PoseSearch(all).to_map(predicted(), tracker_.prior(std::nullopt), sigma_th_m, config_.icp, {});
   };
   const auto aside_m = [](const Registration& found) {
@@ -170,7 +170,7 @@ TEST_F(PoseSearches, OnceConvergedTheScaleGoesDownToThatOfTheNoise) {
 TEST_F(PoseSearches, ASweepOfAnotherTimeIsFoundOnThePath) {
   map_road(kIrregular);
   see_road(4.0, kIrregular);  // three periods after its stamp
-  const RegistrationParts all = parts();
+  const RegistrationContext all = context();
   Registration found = at_the_prediction(all);
   ASSERT_GT(std::abs(x_of(found) - 4.0), 1.0);
   PathSearch(all, PoseSearch(all)).improve(predicted(), found);
@@ -184,8 +184,8 @@ TEST_F(PoseSearches, ASweepIsAlsoLookedForWhereTheOneBeforeFitted) {
   for (const bool claimed : {false, true}) {
     map_road(kIrregular);
     tracker_.lose(predicted(), claimed ? std::optional(along(11.0)) : std::nullopt);
-    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
-    const RegistrationParts all = parts();
+    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs});
+    const RegistrationContext all = context();
     Registration found = at_the_prediction(all);
     ASSERT_LT(x_of(found), 5.0);
     PathSearch(all, PoseSearch(all)).improve(predicted(), found);
@@ -207,7 +207,7 @@ TEST_F(PoseSearches, AfterALossASweepOfAnotherTimeIsFoundAlthoughTheSensorHasTur
     if (lost) {
       tracker_.lose(predicted(), std::nullopt);
     }
-    const RegistrationParts all = parts();
+    const RegistrationContext all = context();
     Registration found = at_the_prediction(all);
     found.icp.state = predicted();
     ASSERT_GT(std::abs(x_of(found) - 4.0), 1.0);
@@ -222,7 +222,7 @@ TEST_F(PoseSearches, WhereItHasMoreInCommonButDoesNotSettleItMayLieAtEitherPlace
   see_road(4.0, kIrregular);
   ASSERT_GE(prepared_.source.size(), 4000U) << "one iteration is not of all points";
   config_.icp.max_iterations = 1;
-  const RegistrationParts all = parts();
+  const RegistrationContext all = context();
   Registration found = at_the_prediction(all);
   const double before = x_of(found);
   PathSearch(all, PoseSearch(all)).improve(predicted(), found);
@@ -233,7 +233,7 @@ TEST_F(PoseSearches, WhereItHasMoreInCommonButDoesNotSettleItMayLieAtEitherPlace
 TEST_F(PoseSearches, WhereNothingShowsTheWayNoOtherPlaceIsTried) {
   map_road(kNone);
   see_road(1.0, kNone);
-  const RegistrationParts all = parts();
+  const RegistrationContext all = context();
   for (const double x_m : {1.0, 3.0, 5.0}) {  // wherever it was found
     Registration found = at_the_prediction(all);
     found.icp.state.T_odom_lidar = along(x_m);
@@ -249,7 +249,7 @@ TEST_F(PoseSearches, AfterALossWhatWasFoundHoldsWithinTheUsualGate) {
   map_road(kIrregular);
   see_road(1.0, kIrregular);
   tracker_.lose(predicted(), std::nullopt);
-  RegistrationParts wide = parts();
+  RegistrationContext wide = context();
   wide.sigma_th_m = 0.2;
   InitialPose init;
   init.T_odom_lidar = predicted().T_odom_lidar;
@@ -268,7 +268,7 @@ TEST_F(PoseSearches, WhatMayLieElsewhereStillMayWhenItHolds) {
   config_.icp.max_iterations = 1;
   initial_pose_.learn(0.9, 1e9);  // nothing fits as usual
   tracker_.lose(predicted(), std::nullopt);
-  RegistrationParts all = parts();
+  RegistrationContext all = context();
   all.contradicted = true;
   InitialPose init;
   init.T_odom_lidar = predicted().T_odom_lidar;
@@ -281,13 +281,13 @@ TEST_F(PoseSearches, OtherPlacesAreSearchedWhenADirectionIsNoLongerSeen) {
   for (const bool panels : {true, false}) {
     map_road(panels ? kIrregular : kNone);
     see_road(1.0, panels ? kIrregular : kNone);
-    RegistrationParts late = parts();
+    RegistrationContext late = context();
     late.deadline = Deadline(clock, 0);
     InitialPose init;
     init.T_odom_lidar = predicted().T_odom_lidar;
     EXPECT_EQ(fine_registration(late, predicted(), init).cut, !panels);
     tracker_.accept(state_at(1.0), MotionVerdict::kPossible, true);
-    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
+    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs});
     EXPECT_FALSE(fine_registration(late, predicted(), init).cut) << "it was not seen before either";
   }
 }
@@ -300,11 +300,11 @@ TEST_F(PoseSearches, ASecondSweepThatFitsElsewhereAsWellIsAmbiguous) {
     map_.begin({road(0.0, 40.0, 0.0, 0.01, panels)}, {}, 8.0, {});
     tracker_.reset();
     tracker_.begin({});
-    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs, true});
+    tracker_.advance({0, kSearchPeriodNs, kSearchPeriodNs});
     prepared_.source.points = road(2.5, 40.0, 0.07, 0.01, panels);
     prepared_.map_cloud = prepared_.source;
     prepared_.scene_range_m = 8.0;
-    const RegistrationParts all = parts();
+    const RegistrationContext all = context();
     const MotionState at_rest;
     const Registration found = SecondSweep(all, PoseSearch(all)).registered(at_rest, tracker_.prior(at_rest));
     const bool regular = panels.sway_m == 0.0;  // one step back looks like one step on

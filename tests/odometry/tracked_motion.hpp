@@ -11,7 +11,7 @@ namespace rilo::test {
 
 inline constexpr std::int64_t kStepNs = 100'000'000;
 
-inline SweepTime after(std::int64_t step_ns) { return {0, step_ns, step_ns, true}; }
+inline SweepTime after(std::int64_t step_ns) { return {0, step_ns, step_ns}; }
 
 inline IcpResult at(double x) {
   IcpResult icp;

@@ -9,8 +9,8 @@ bool is_degenerate(const IcpResult& icp, const HealthConfig& config, double unse
 }
 
 LossCause loss_cause(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
-  if (icp.termination == IcpTermination::kSingular) return LossCause::kUnsolved;
   if (evidence.shrunk) return LossCause::kCovered;
+  if (icp.termination == IcpTermination::kSingular) return LossCause::kUnsolved;
   if (evidence.cut_off) return LossCause::kOutOfTime;
   if (evidence.misplaced != LossCause::kNone) return evidence.misplaced;
   // Where a sweep belongs it comes to rest before its matches have to be held, or with them.

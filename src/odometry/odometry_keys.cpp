@@ -204,9 +204,9 @@ void add_beams(KeyVisitor& keys, BeamCalibrationConfig& c) {
 
 void add_health(KeyVisitor& keys, HealthConfig& c) {
   keys.section("health", "When a pose is degenerate, poorly supported or lost");
-  keys.integer(
-      {"restart_after", "sweeps", "lost for this long, a new map starts; missing sweeps count once three are lost"},
-      c.restart_after, 1, 1000000);
+  keys.integer({"restart_after", "sweeps",
+                "lost so long, a new map starts; missing sweeps count after three that are not covered"},
+               c.restart_after, 1, 1000000);
   keys.real(
       {"lost_share", "", "lost when the map score falls below this share of the usual one", "experiment: 384 pairs"},
       c.lost_share, 0, 1);

@@ -77,7 +77,7 @@ void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted,
     return;  // nothing contradicts the map
   }
   contradicted_ = true;
-  if (judge_.give_up(established(), periods_since_trusted())) {
+  if (judge_.give_up(established(), periods_since_trusted(), result.stats.loss_cause)) {
     begin_map(prepared, claim ? MotionState{*claim, predicted.twist} : predicted, result);
   }
 }

@@ -87,10 +87,11 @@ bool SweepJudge::fits_closely(const Registration& registration, double usual_qua
                                    : registration.quality >= usual_quality / kClose;
 }
 
-bool SweepJudge::give_up(bool established, double since_last) {
-  const bool long_ago = since_last >= config_.restart_after;
-  const int most = long_ago ? std::min(config_.restart_after, kTriesAfterGap) : config_.restart_after;
-  return ++lost_in_a_row_ >= (established ? most : 1);
+bool SweepJudge::give_up(bool established, double since_last, LossCause cause) {
+  ++lost_in_a_row_;
+  if (cause != LossCause::kCovered) ++tried_in_a_row_;
+  const bool long_ago = since_last >= config_.restart_after && tried_in_a_row_ >= kTriesAfterGap;
+  return !established || long_ago || lost_in_a_row_ >= config_.restart_after;
 }
 
 void SweepJudge::accept(const PreparedSweep& prepared, const Registration& registration, bool degenerate) {
@@ -98,7 +99,7 @@ void SweepJudge::accept(const PreparedSweep& prepared, const Registration& regis
   follow(usual_eigenvalue_, registration.icp.degeneracy.relative_eigenvalues[0]);
   follow(usual_residual_m_, registration.icp.residual_rms_m);
   unseen_share_ += kUnseenGain * ((degenerate ? 1.0 : 0.0) - unseen_share_);
-  lost_in_a_row_ = 0;
+  lost_in_a_row_ = tried_in_a_row_ = 0;
   begun_in_a_row_ = 0;
 }
 

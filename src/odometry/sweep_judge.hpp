@@ -45,12 +45,13 @@ class SweepJudge {
     usual_eigenvalue_ = 0.0;
     usual_residual_m_ = 0.0;
     unseen_share_ = 0.0;
-    lost_in_a_row_ = 0;
+    lost_in_a_row_ = tried_in_a_row_ = 0;
     ++begun_in_a_row_;
   }
   /// Counts a lost sweep. True when the map has not fitted for too long, missing sweeps included: `since_last` periods
   /// after the last one that did. A map that is not `established` may itself be the wrong one and is given up at once.
-  bool give_up(bool established, double since_last);
+  /// A covered sensor says nothing against the map.
+  bool give_up(bool established, double since_last, LossCause cause);
   int lost_in_a_row() const { return lost_in_a_row_; }
 
   void reset() { *this = SweepJudge(config_); }
@@ -75,6 +76,7 @@ class SweepJudge {
   double usual_eigenvalue_ = 0;  // least relative one of the sweeps in the map; 0: unknown
   double unseen_share_ = 0;      // of the sweeps in the map: degenerate ones
   int lost_in_a_row_ = 0;
+  int tried_in_a_row_ = 0;  // of them: those that were not covered
   int begun_in_a_row_ = 0;  // maps, without a second sweep
 };
 

@@ -144,10 +144,10 @@ TEST(Judging, OfSeveralCausesTheFirstIsSaid) {
   EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kFitsBeside);
   e.cut_off = true;
   EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kOutOfTime);
-  e.shrunk = true;
-  EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kCovered);
   icp.termination = IcpTermination::kSingular;
   EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kUnsolved);
+  e.shrunk = true;
+  EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kCovered);
 }
 
 TEST(Judging, DegeneracyIsSaid) {

@@ -121,14 +121,26 @@ TEST_F(AfterAGap, ANewMapHasNoUsualResiduals) {
   EXPECT_EQ(status(), OdometryStatus::kOk);
 }
 
+constexpr LossCause kSearchedInVain = LossCause::kFoundByChance;
+
 TEST_F(AfterAGap, AMapIsGivenUpAfterThreeTries) {
-  EXPECT_FALSE(judge_.give_up(true, 16.0));
-  EXPECT_FALSE(judge_.give_up(true, 17.0));
-  EXPECT_TRUE(judge_.give_up(true, 18.0));
+  EXPECT_FALSE(judge_.give_up(true, 16.0, kSearchedInVain));
+  EXPECT_FALSE(judge_.give_up(true, 17.0, kSearchedInVain));
+  EXPECT_TRUE(judge_.give_up(true, 18.0, kSearchedInVain));
   judge_.accept(place_, found_, false);
-  EXPECT_FALSE(judge_.give_up(true, 6.0));
-  EXPECT_FALSE(judge_.give_up(true, 7.0));
-  EXPECT_FALSE(judge_.give_up(true, 8.0)) << "a gap of half a second";
+  EXPECT_FALSE(judge_.give_up(true, 6.0, kSearchedInVain));
+  EXPECT_FALSE(judge_.give_up(true, 7.0, kSearchedInVain));
+  EXPECT_FALSE(judge_.give_up(true, 8.0, kSearchedInVain)) << "a gap of half a second";
+}
+
+// Its sweeps would fit a map of what covers the sensor, which moves along with it.
+TEST_F(AfterAGap, ACoveredSensorIsNoTry) {
+  for (int covered = 0; covered < 4; ++covered) {
+    EXPECT_FALSE(judge_.give_up(true, 16.0 + covered, LossCause::kCovered));
+  }
+  EXPECT_FALSE(judge_.give_up(true, 20.0, kSearchedInVain));
+  EXPECT_FALSE(judge_.give_up(true, 21.0, kSearchedInVain));
+  EXPECT_TRUE(judge_.give_up(true, 22.0, kSearchedInVain));
 }
 
 // Two seconds are missing in which a car turns into another street, 16 m on.

@@ -190,18 +190,27 @@ TEST(SweepJudge, AMotionThatIsImpossibleIsAJumpWhereTheSweepFitsAsUsual) {
 
 TEST(SweepJudge, AnEstablishedMapIsGivenUpAfterTenLossesInARow) {
   SweepJudge judge(kJudgeConfig);
-  EXPECT_TRUE(judge.give_up(false, 1.0)) << "a young map may be the wrong one";
+  EXPECT_TRUE(judge.give_up(false, 1.0, LossCause::kLowScore)) << "a young map may be the wrong one";
   judge.begin(sweep_of(10.0));
   for (int round = 0; round < 2; ++round) {
     for (int lost = 1; lost < kJudgeConfig.restart_after; ++lost) {
-      EXPECT_FALSE(judge.give_up(true, lost)) << lost;
+      EXPECT_FALSE(judge.give_up(true, lost, LossCause::kLowScore)) << lost;
     }
     judge.accept(sweep_of(10.0), fitting(), false);
   }
   for (int lost = 1; lost < kJudgeConfig.restart_after; ++lost) {
-    judge.give_up(true, lost);
+    judge.give_up(true, lost, LossCause::kLowScore);
   }
-  EXPECT_TRUE(judge.give_up(true, kJudgeConfig.restart_after));
+  EXPECT_TRUE(judge.give_up(true, kJudgeConfig.restart_after, LossCause::kLowScore));
+}
+
+TEST(SweepJudge, ASensorThatStaysCoveredIsSomewhereElse) {
+  SweepJudge judge(kJudgeConfig);
+  judge.begin(sweep_of(10.0));
+  for (int lost = 1; lost < kJudgeConfig.restart_after; ++lost) {
+    EXPECT_FALSE(judge.give_up(true, lost, LossCause::kCovered)) << lost;
+  }
+  EXPECT_TRUE(judge.give_up(true, kJudgeConfig.restart_after, LossCause::kCovered));
 }
 
 TEST(SweepJudge, AfterTenBeginningsInARowASecondSweepMayLeaveADirectionOpen) {

@@ -10,6 +10,7 @@
 #include "checks.hpp"
 #include "command.hpp"
 #include "console/text.hpp"
+#include "report/figures.hpp"
 #include "results/evaluation_output.hpp"
 #include "results/metrics_json.hpp"
 #include "results/pose_files.hpp"
@@ -75,27 +76,32 @@ nlohmann::json sequence_json(const Sequence& sequence) {
   return json;
 }
 
+/// The averages are over the sequences of which a t_rel is shown.
+std::vector<KittiError> averaged(const std::vector<Sequence>& sequences) {
+  std::vector<KittiError> errors;
+  for (const Sequence& sequence : sequences) {
+    if (shows_t_rel(sequence.evaluation)) errors.push_back(sequence.evaluation.kitti);
+  }
+  return errors;
+}
+
 void print_json(const std::vector<Sequence>& sequences) {
   nlohmann::json json;
-  std::vector<KittiError> errors;
   if (sequences.size() == 1) {
     json = sequence_json(sequences.front());
   } else {
     for (const Sequence& sequence : sequences) json["sequences"].push_back(sequence_json(sequence));
   }
-  for (const Sequence& sequence : sequences) errors.push_back(sequence.evaluation.kitti);
-  json.update(benchmark_json(kitti_benchmark(errors)));
+  json.update(benchmark_json(kitti_benchmark(averaged(sequences))));
   std::cout << json_text(json);
 }
 
-/// The averages are over the sequences of which a t_rel is shown.
 void print_table(const std::vector<Sequence>& sequences) {
-  std::vector<KittiError> errors;
   for (const Sequence& sequence : sequences) {
     std::cout << fmt::format("{} against {}\n{}\n{}\n", sequence.estimate, sequence.truth, sequence.protocol,
                              evaluation_table(sequence.evaluation));
-    if (shows_t_rel(sequence.evaluation)) errors.push_back(sequence.evaluation.kitti);
   }
+  const std::vector<KittiError> errors = averaged(sequences);
   std::cout << benchmark_table(kitti_benchmark(errors), errors.size());
 }
 
@@ -127,9 +133,9 @@ int eval(const EvalFlags& flags, const CLI::App& command) {
 }
 
 void add_flags(CLI::App& command, EvalFlags& flags) {
-  command.add_option("GT", flags.truth, "true poses: a file, or a data folder")->required();
-  command.add_option("EST", flags.estimate, "estimated poses")->required();
-  command.add_option("MORE", flags.more, "further pairs GT EST, one per sequence");
+  command.add_option("GT", flags.truth, "true poses: a file, or a data folder")->required()->check(path_given());
+  command.add_option("EST", flags.estimate, "estimated poses")->required()->check(path_given());
+  command.add_option("MORE", flags.more, "further pairs GT EST, one per sequence")->check(path_given());
   add_choice(
       command, "--instant", [&flags](const std::string& text) { flags.instant = parse_pose_instant(text).value(); },
       {"start", "mid", "end"},

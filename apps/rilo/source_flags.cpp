@@ -59,9 +59,9 @@ void add_source_flags(CLI::App& command, SourceRequest& flags) {
       ->default_str(fmt::format("{:g}", options.assumed_rate_hz()));
   command
       .add_option("--parts", options.parts,
-                  "messages or files that hold a sweep in parts and are joined to one; 1: none are. Default: found "
+                  "messages or files that hold a sweep in parts and are joined to one; 1: none are. Default: 0, found "
                   "out where they come faster than 13 a second")
-      ->check(number_within(1, SourceOptions::kMostParts));
+      ->check(whole_number(SourceOptions::kMostParts));
   command.add_flag_callback(
       "--skip-bad-sweeps", [&options] { options.on_bad_sweep = OnBadSweep::kSkip; },
       "skip sweeps that cannot be read (counted in the results) instead of stopping");

@@ -36,6 +36,7 @@ std::string unexpected(const CLI::App& command, const std::vector<std::string>& 
     const std::string name = word.substr(0, word.find('='));
     const std::string meant =
         nearest_word(std::string_view(name).substr(name.find_first_not_of('-')), options_of(command));
+    if ("--" + meant == name) return "option " + name + " after --, behind which all are arguments";
     return "unknown option " + name + suggestion(meant.empty() ? "" : "--" + meant);
   }
   return left.empty() ? "" : "unexpected argument \"" + left.front() + "\"";

@@ -31,10 +31,10 @@ bool is_text(const fs::path& file) {
   return kTexts.contains(extension_of(file));
 }
 
-bool is_data(const fs::path& file) {
-  static const std::set<std::string> kData = {".bin",  ".pcd",  ".ply",    ".bag", ".db3",
-                                              ".mcap", ".pcap", ".pcapng", ".zstd"};
-  return is_text(file) || kData.contains(extension_of(file));
+// Whatever its name a file may be data, as captures are known by what is in them.
+bool is_picture(const fs::path& file) {
+  static const std::set<std::string> kPictures = {".png", ".jpg", ".jpeg"};
+  return kPictures.contains(extension_of(file));
 }
 
 // A line that changes when the file does.
@@ -58,7 +58,7 @@ void list_folder(const fs::path& folder, const fs::path& results, Lines& lines) 
     if (entry->is_directory(ignored)) {
       const bool ours = !results.empty() && fs::equivalent(entry->path(), results, ignored);
       if (ours || entry.depth() >= kDeepestFolder) entry.disable_recursion_pending();
-    } else if (is_data(entry->path())) {
+    } else if (!is_picture(entry->path())) {
       const std::string name = entry->path().lexically_relative(folder).string();
       lines[name] = line_of(name, entry->path());
     }

@@ -15,13 +15,20 @@ namespace rilo {
 
 namespace {
 
+/// Of a killed run the points are not known.
+bool as_many_points(const SweepResult& a, const SweepResult& b) {
+  return a.stats.points_in == 0 || b.stats.points_in == 0 || a.stats.points_in == b.stats.points_in;
+}
+
 /// Whether two runs are over the same data: the same sweep has the same stamp, even if at another time within the
-/// sweep. Data may have been moved between the runs, so that paths say nothing; without a sweep in common they decide.
+/// sweep, and as many points, since drives without stamps all begin alike. Data may have been moved between the runs,
+/// so that paths say nothing; without a sweep in common they decide.
 bool same_data(const RunRecord& a, const RunRecord& b) {
   constexpr std::int64_t kNear_ns = 1'000'000'000;
   for (std::size_t i = 0, k = 0; i < a.indices.size() && k < b.indices.size();) {
     if (a.indices[i] == b.indices[k]) {
-      return std::abs(detail::stamp_difference(a.results[i].stamp_ns, b.results[k].stamp_ns)) < kNear_ns;
+      return std::abs(detail::stamp_difference(a.results[i].stamp_ns, b.results[k].stamp_ns)) < kNear_ns &&
+             as_many_points(a.results[i], b.results[k]);
     }
     a.indices[i] < b.indices[k] ? ++i : ++k;
   }

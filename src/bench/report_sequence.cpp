@@ -55,6 +55,10 @@ void evaluate_saved(const ReportSequence& sequence, const PoseFlags& flags, Save
   }
   evaluate_run(run.record);
   if (run.record.evaluation || !run.metrics.evaluated()) return;
+  if (!run.record.truth_error.empty()) {
+    run.notices.push_back("The true poses cannot be used: " + run.record.truth_error);
+    return;
+  }
   const std::string& file = run.metrics.evaluation.truth;
   run.notices.push_back(fmt::format(
       "The true poses ({}) are not where they were: figures are those of the run, curves of errors are missing; --gt "

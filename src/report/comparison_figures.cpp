@@ -7,6 +7,10 @@
 
 namespace rilo {
 
+KittiError kitti_of(const RunReport& run) {
+  return run.evaluation && shows_t_rel(*run.evaluation) ? run.evaluation->kitti : KittiError{};
+}
+
 namespace {
 
 template <typename Get>
@@ -28,10 +32,8 @@ const std::vector<ComparisonFigure>& comparison_figures() {
        [](const RunReport& r) {
          return of_evaluation(r, [](const Evaluation& e) { return e.ape.translation_m.rmse; });
        }},
-      {{"t_rel_pct", "t_rel", "%", 4},
-       [](const RunReport& r) { return r.evaluation ? r.evaluation->kitti.t_rel_pct() : std::nullopt; }},
-      {{"r_rel_deg_per_100m", "r_rel", "°/100 m", 4},
-       [](const RunReport& r) { return r.evaluation ? r.evaluation->kitti.r_rel_deg_100m() : std::nullopt; }},
+      {{"t_rel_pct", "t_rel", "%", 4}, [](const RunReport& r) { return kitti_of(r).t_rel_pct(); }},
+      {{"r_rel_deg_per_100m", "r_rel", "°/100 m", 4}, [](const RunReport& r) { return kitti_of(r).r_rel_deg_100m(); }},
       {{"ape_unaligned_rmse_m", "APE unaligned", "m", 4},
        [](const RunReport& r) {
          return of_evaluation(r, [](const Evaluation& e) { return e.ape_unaligned.translation_m.rmse; });

@@ -12,6 +12,9 @@
 
 namespace rilo {
 
+/// Segments of a run of which a t_rel is shown, else none.
+KittiError kitti_of(const RunReport& run);
+
 /// A number of a run; the smaller the better.
 struct ComparisonFigure {
   ExperimentFigure what;  ///< keys as in results.json of a benchmark

@@ -47,10 +47,8 @@ std::string figures_panel(const std::vector<RunReport>& runs, const Places& plac
 
 Json lengths_of(const RunReport& run) {
   Json rows = Json::array();
-  if (run.evaluation) {
-    for (const KittiLengthError& row : run.evaluation->kitti.per_length()) {
-      rows.push_back({rounded(row.length_m), rounded(row.t_rel_pct), rounded(row.r_rel_deg_100m), row.count});
-    }
+  for (const KittiLengthError& row : kitti_of(run).per_length()) {
+    rows.push_back({rounded(row.length_m), rounded(row.t_rel_pct), rounded(row.r_rel_deg_100m), row.count});
   }
   return rows;
 }

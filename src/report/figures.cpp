@@ -12,19 +12,20 @@
 
 namespace rilo {
 
+bool shows_t_rel(const Evaluation& e) { return e.path_m >= kLeastPathM && !e.kitti.segments.empty(); }
+
 namespace {
 
 /// Number and lengths of the segments behind t_rel.
 std::string segments_of(const KittiError& kitti) {
   const std::vector<KittiLengthError> rows = kitti.per_length();
-  if (rows.empty()) return "no segment: the path is too short";
   const int digits = kitti.short_path ? 1 : 0;
   return fmt::format("{} segment{} of {} … {} m", kitti.segments.size(), kitti.segments.size() == 1 ? "" : "s",
                      number(rows.front().length_m, digits), number(rows.back().length_m, digits));
 }
 
 void add_accuracy(const Evaluation& e, std::vector<Figure>& figures) {
-  if (e.path_m >= kLeastPathM) {
+  if (shows_t_rel(e)) {
     figures.push_back(
         {"t_rel", number(e.kitti.t_rel_pct(), 3), "%", "translation drift, mean of " + segments_of(e.kitti)});
     figures.push_back(

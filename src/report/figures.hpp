@@ -11,6 +11,8 @@ namespace rilo {
 
 /// Of a path whose drift means anything.
 inline constexpr double kLeastPathM = 10;
+/// Whether t_rel says something: per cent of a path of centimetres do not.
+bool shows_t_rel(const Evaluation& evaluation);
 
 /// Time per sweep.
 struct TimingFigures {

@@ -17,8 +17,6 @@ std::string row(const char* name, const ErrorSummary& s, const char* unit) {
 
 }  // namespace
 
-bool shows_t_rel(const Evaluation& e) { return e.path_m >= kLeastPathM && !e.kitti.segments.empty(); }
-
 std::string evaluation_table(const Evaluation& e) {
   std::string text = fmt::format("{}, path {:.1f} m\n", counted(e.poses, "pose"), e.path_m);
   if (shows_t_rel(e)) {

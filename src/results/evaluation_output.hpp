@@ -10,9 +10,6 @@
 
 namespace rilo {
 
-/// Whether t_rel says something: per cent of a path of centimetres do not.
-bool shows_t_rel(const Evaluation& evaluation);
-
 std::string evaluation_table(const Evaluation& evaluation);
 
 /// The two averages over sequences that the field prints.

@@ -75,25 +75,34 @@ OdometryConfig config_of(const fs::path& folder) {
   }
 }
 
-/// map.ply or map.pcd, else the largest such file.
+/// map.ply or map.pcd, else the only such file.
 std::optional<fs::path> map_file(const fs::path& folder) {
-  std::optional<fs::path> found;
-  std::uintmax_t largest = 0;
+  std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& file = entry.path();
     if (!entry.is_regular_file() || (file.extension() != ".ply" && file.extension() != ".pcd")) continue;
     if (file.stem() == "map") return file;
-    if (!found || entry.file_size() > largest) {
-      found = file;
-      largest = entry.file_size();
-    }
+    found.push_back(file);
   }
-  return found;
+  return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
+}
+
+/// What is beside the poses may be missing or damaged: the rest is shown all the same.
+template <typename Read>
+void read_beside(SavedRun& run, const char* what, const Read& read) {
+  try {
+    read();
+  } catch (const IoError& error) {
+    run.notices.push_back(fmt::format("{} cannot be read: {}", what, error.what()));
+  }
 }
 
 void read_map(SavedRun& run) {
   const auto file = map_file(run.folder);
-  if (file) run.record.map.points = (file->extension() == ".ply" ? read_ply(*file) : read_pcd(*file)).points;
+  if (!file) return;
+  read_beside(run, file->filename().c_str(), [&] {
+    run.record.map.points = (file->extension() == ".ply" ? read_ply(*file) : read_pcd(*file)).points;
+  });
 }
 
 /// The files do not hold the velocity during a sweep: it is taken from the poses before and after it.
@@ -160,7 +169,8 @@ SavedRun read_saved_run(const fs::path& folder) {
   run.record.source.period_s = period_of(run.record);
   run.record.config = config_of(folder);
   if (detail::is_file(run.record.data / "calib.txt")) {
-    run.record.source.T_cam_lidar = read_kitti_calibration(run.record.data / "calib.txt");
+    read_beside(run, "calib.txt",
+                [&] { run.record.source.T_cam_lidar = read_kitti_calibration(run.record.data / "calib.txt"); });
   }
   read_map(run);
   if (detail::is_file(folder / kPartialPoses)) {

@@ -78,8 +78,8 @@ TEST(ContentHash, DataChangeWithWhatIsReadOfThemOrBesideThem) {
   folder.write("day/drive/notes.txt", "");
   std::string before = hash_of_data(folder / "day/drive", {});
   // Of any case, packed, and what lies beside: a rosbag2's packed file; calibrations, stamps and metadata.
-  for (const char* name : {"day/drive/0.PCD", "day/drive/bag.db3.zstd", "day/calib_imu_to_velo.txt", "day/times.txt",
-                           "day/timestamps.txt", "day/drive.json"}) {
+  for (const char* name : {"day/drive/0.PCD", "day/drive/bag.db3.zstd", "day/drive/ring.pcap1",
+                           "day/calib_imu_to_velo.txt", "day/times.txt", "day/timestamps.txt", "day/drive.json"}) {
     folder.write(name, "x");
     const std::string after = hash_of_data(folder / "day/drive", {});
     EXPECT_NE(after, before) << name;

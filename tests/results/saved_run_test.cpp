@@ -16,6 +16,7 @@ namespace rilo::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 RunRecord straight_run() {
   RunRecord run;
@@ -98,7 +99,7 @@ TEST(SavedRun, FindsTheDataFromAnotherFolder) {
   EXPECT_EQ(read_saved_run(folder.path()).record.data, folder / "drive");
 }
 
-TEST(SavedRun, OfSeveralMapsTheOneNamedSoElseTheLargest) {
+TEST(SavedRun, OfSeveralCloudsTheMapIsTheOneNamedSo) {
   const TempDir folder;
   write_run(folder, run_metrics(straight_run()));
   const auto ply = [](int points) {
@@ -107,11 +108,24 @@ TEST(SavedRun, OfSeveralMapsTheOneNamedSoElseTheLargest) {
     for (int i = 0; i < points; ++i) text += std::to_string(i) + " 0 0\n";
     return text;
   };
-  folder.write("small.ply", ply(1));
-  folder.write("large.ply", ply(7));
+  folder.write("first.ply", ply(7));
   EXPECT_EQ(read_saved_run(folder.path()).record.map.points.size(), 7U);
+  folder.write("second.ply", ply(1));
+  EXPECT_TRUE(read_saved_run(folder.path()).record.map.points.empty());
   folder.write("map.ply", ply(2));
   EXPECT_EQ(read_saved_run(folder.path()).record.map.points.size(), 2U);
+}
+
+TEST(SavedRun, IsReadWithoutWhatIsDamagedBesideIt) {
+  const TempDir folder;
+  folder.write("drive/calib.txt", "Tr: 1 2\n");
+  RunMetrics metrics = run_metrics(straight_run());
+  metrics.data_path = folder / "drive";
+  write_run(folder, metrics);
+  folder.write("map.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
+  const SavedRun saved = read_saved_run(folder.path());
+  EXPECT_EQ(saved.record.results.size(), 5U);
+  EXPECT_THAT(saved.notices, UnorderedElementsAre(HasSubstr("map.ply"), HasSubstr("calib.txt")));
 }
 
 TEST(SavedRun, SaysWhatIsMissing) {

@@ -41,9 +41,10 @@ struct KittiError {
 
 /// Errors of the KITTI odometry development kit (Geiger et al., CVPR 2012; devkit/cpp/evaluate_odometry.cpp).
 /// Starts every 10 poses, lengths 100, 200 … 800 m along the true path; a segment ends at the first pose at least that
-/// far on; its error is (T_est_first⁻¹ T_est_last)⁻¹ (T_truth_first⁻¹ T_truth_last), divided by the nominal length.
-/// Paths shorter than 150 m use the lengths k/8 of 80 % of the path (k = 1 … 8) instead, or `lengths_m` when given.
-/// The result does not depend on the frame of either trajectory, nor on any alignment.
+/// far on (the devkit's: farther, which differs where a path falls on a length exactly); its error is (T_est_first⁻¹
+/// T_est_last)⁻¹ (T_truth_first⁻¹ T_truth_last), divided by the nominal length. Paths shorter than 150 m use the
+/// lengths k/8 of 80 % of the path (k = 1 … 8) instead, or `lengths_m` when given. The result does not depend on the
+/// frame of either trajectory, nor on any alignment.
 /// @throws std::invalid_argument as check_trajectories, or when a given length is not positive.
 KittiError kitti_error(const std::vector<SE3>& truth, const std::vector<SE3>& estimate,
                        const std::vector<double>& lengths_m = {});

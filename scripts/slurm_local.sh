@@ -80,8 +80,15 @@ start_munge() {
     die "munged does not start, see $dir/munged.err and $dir/munged.log"
 }
 
+# Nothing of a Slurm that did not start goes on.
+fail() {
+  stop "$1"
+  die "$2"
+}
+
 start() {
   local dir="$1"
+  [[ "$dir$PWD" != *" "* ]] || die "$dir: Slurm's configuration takes no path with a space"
   have_slurm || die "no Slurm here: apt-get install --no-install-recommends slurmctld slurmd slurm-client munge"
   mkdir -p "$dir/state" "$dir/spool"
   dir="$(cd "$dir" && pwd)"
@@ -90,11 +97,11 @@ start() {
   write_configuration "$dir"
   start_munge "$dir"
   export SLURM_CONF="$dir/slurm.conf"
-  slurmctld -f "$SLURM_CONF" 2>"$dir/slurmctld.err" || die "slurmctld does not start, see $dir/slurmctld.log"
-  slurmd -f "$SLURM_CONF" 2>"$dir/slurmd.err" || die "slurmd does not start, see $dir/slurmd.log"
+  slurmctld -f "$SLURM_CONF" 2>"$dir/slurmctld.err" || fail "$dir" "slurmctld does not start, see $dir/slurmctld.log"
+  slurmd -f "$SLURM_CONF" 2>"$dir/slurmd.err" || fail "$dir" "slurmd does not start, see $dir/slurmd.log"
   # Ready when the node takes jobs.
   wait_for 150 sh -c "sinfo --noheader --format=%t | grep -qx idle" ||
-    die "the node does not become idle, see $dir/slurmctld.log and $dir/slurmd.log"
+    fail "$dir" "the node does not become idle, see $dir/slurmctld.log and $dir/slurmd.log"
   echo "export SLURM_CONF=$SLURM_CONF"
 }
 

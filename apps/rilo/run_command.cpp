@@ -4,7 +4,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -26,6 +25,7 @@
 #include "rilo/config/config_file.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/session/session_observer.hpp"
+#include "session/processors.hpp"
 #include "source_flags.hpp"
 #include "view_flags.hpp"
 
@@ -101,8 +101,7 @@ std::unique_ptr<LiveView> open_view(const RunFlags& flags, const ScanSource& sou
     options.port = static_cast<std::uint16_t>(*port);
   }
   // A processor that the odometry leaves alone may be used: half of it, there is reading and the system as well.
-  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
-  if (config.threads > 0 && config.threads < processors) options.share = kShareOfIdleProcessor;
+  if (config.threads > 0 && config.threads < usable_processors()) options.share = kShareOfIdleProcessor;
   ViewInfo info = view_info(flags.data, config);
   info.sweeps = sweeps_to_do(source, flags.start, flags.count);
   return std::make_unique<LiveView>(info, options,
@@ -234,7 +233,8 @@ void add_flags(CLI::App& command, RunFlags& flags) {
       .add_option("--map", flags.map,
                   "write the accumulated map (.ply or .pcd), one point per voxel; a bare name goes into --out")
       ->check(path_given());
-  add_number(command, "--map-voxel", flags.map_voxel_m, 0.001, 100, "edge of the map's voxels, m");
+  add_number(command, "--map-voxel", flags.map_voxel_m, ThinnedMap::kLeastVoxelM, ThinnedMap::kMostVoxelM,
+             "edge of the map's voxels, m");
   command.add_flag("--map-normals", flags.map_normals, "normals in the map, towards where the surface was seen from");
   command.add_flag("--map-intensity", flags.map_intensity, "intensities in the map");
   command.add_option("--odom-frame", flags.odom_frame, "odometry frame in trajectory.mcap and trajectory.bag")

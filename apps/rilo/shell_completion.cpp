@@ -127,6 +127,13 @@ std::string fish_completion(const TreeCommand& tree) {
   for (const TreeCommand& command : tree.commands) {
     text += fmt::format("complete -c rilo -n 'not __fish_seen_subcommand_from {}' -f -a {} -d {}\n", all, command.name,
                         fish_quoted(command.help));
+    const std::string names = in_a_row(names_of(command.commands));
+    for (const TreeCommand& below : command.commands) {
+      text += fmt::format(
+          "complete -c rilo -n '__fish_seen_subcommand_from {}; and not __fish_seen_subcommand_from {}' -f -a {} -d "
+          "{}\n",
+          command.name, names, below.name, fish_quoted(below.help));
+    }
     for (const TreeCommand* within : flattened(command)) {
       for (const TreeOption& option : within->options) {
         text += fmt::format("complete -c rilo -n '__fish_seen_subcommand_from {}'", command.name);

@@ -25,7 +25,7 @@ void write_poses(const std::filesystem::path& path, const py::object& poses, con
   if (format != "tum" && format != "euroc") {
     throw py::value_error("format: got '" + format + "'; expected tum, kitti or euroc");
   }
-  if (stamps_ns.is_none()) throw py::value_error("stamps_ns: needed for format " + format);
+  if (stamps_ns.is_none()) throw py::value_error("stamps_ns: needed for format " + format + "; kitti has none");
   format == "tum" ? write_tum(path, stamped(taken, stamps_ns)) : write_euroc(path, stamped(taken, stamps_ns));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <pybind11/pybind11.h>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,9 +23,12 @@ inline std::string position_text(const Eigen::Vector3d& p) {
   return text_of("(%.3f, %.3f, %.3f) m", p.x(), p.y(), p.z());
 }
 
+/// Any bytes as text, what is not UTF-8 (names of files) replaced.
+pybind11::str python_text(const std::string& bytes);
+
 using HtmlRows = std::vector<std::pair<std::string, std::string>>;
 
 /// A table of two columns, its texts escaped.
-std::string html_table(const std::string& title, const HtmlRows& rows);
+pybind11::str html_table(const std::string& title, const HtmlRows& rows);
 
 }  // namespace rilo::python

@@ -49,7 +49,7 @@ std::string odometry_repr(const PythonOdometry& self) {
          position_text(last_pose_of(self).translation()) + ">";
 }
 
-std::string odometry_html(const PythonOdometry& self) {
+py::str odometry_html(const PythonOdometry& self) {
   const double path_m = self.read([](const Odometry& odometry) {
     const Trajectory& poses = odometry.trajectory();
     double length = 0;

@@ -20,7 +20,7 @@ std::string result_repr(const SweepResult& r) {
          text_of(", %zu correspondences>", r.stats.inliers);
 }
 
-std::string result_html(const SweepResult& r) {
+py::str result_html(const SweepResult& r) {
   const SE3& pose = r.T_odom_lidar;
   const Eigen::Vector3d sigma = r.covariance.diagonal().tail<3>().cwiseMax(0).cwiseSqrt();
   return html_table("rilo.SweepResult: " + std::string(to_string(r.status)),

@@ -89,8 +89,9 @@ PythonRun run(const std::filesystem::path& source, const SourceOptions& source_o
   options.point_times = source_options.point_times;
   options.rate_assumed = !source_options.rate_hz;
   options.interrupted = signal_arrived;
-  if (map_voxel_m && !(*map_voxel_m > 0)) {
-    throw py::value_error(text_of("map_voxel_m: got %g; expected a length above 0 m", *map_voxel_m));
+  if (map_voxel_m && !(*map_voxel_m >= ThinnedMap::kLeastVoxelM && *map_voxel_m <= ThinnedMap::kMostVoxelM)) {
+    throw py::value_error(text_of("map_voxel_m: got %g; expected %g … %g m", *map_voxel_m, ThinnedMap::kLeastVoxelM,
+                                  ThinnedMap::kMostVoxelM));
   }
   PythonRun done;
   const Callables callables{on_sweep, on_restart, on_progress};
@@ -125,7 +126,7 @@ std::string run_repr(const PythonRun& run) {
                  path_m(run), run.session.wall_s, run.session.restart ? ", two passes" : "");
 }
 
-std::string run_html(const PythonRun& run) {
+py::str run_html(const PythonRun& run) {
   const SessionResult& r = run.session;
   std::size_t ok = 0;
   for (const SweepResult& result : r.results) ok += result.status == OdometryStatus::kOk ? 1 : 0;
@@ -205,7 +206,7 @@ void add_run(py::module_& module) {
           "calibration",
           [](const PythonRun& run) {
             const std::string source = text_of("%zu sweeps of ", run.session.learnt_from);
-            return dump_calibration(run.session.learnt, source + run.session.source.path.string());
+            return python_text(dump_calibration(run.session.learnt, source + run.session.source.path.string()));
           },
           "What was learnt about the sensor's angles, YAML: to be written to a file, or for calibration=.")
       .def_property_readonly(

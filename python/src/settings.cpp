@@ -1,5 +1,7 @@
 #include "settings.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 #include <string>
@@ -32,7 +34,12 @@ bool is_mapping(const py::handle& value) {
   return py::isinstance(value, py::module_::import("collections.abc").attr("Mapping"));
 }
 
+constexpr std::ptrdiff_t kDeepestKey = 3;  // dots of a key; a dict may hold itself
+
 void flatten(const std::string& prefix, const py::dict& values, std::vector<std::string>& settings) {
+  if (std::count(prefix.begin(), prefix.end(), '.') > kDeepestKey) {
+    throw py::type_error("settings: nested too deep at " + prefix.substr(0, prefix.size() - 1));
+  }
   for (const auto& [name, value] : values) {
     if (!py::isinstance<py::str>(name)) refuse_type("settings", name, "keys that are text");
     const std::string key = prefix + name.cast<std::string>();

@@ -18,7 +18,11 @@ seed:     town, traffic and noise.
 start_s:  begin this far into the drive, s; 0: standing.
 deskewed: points compensated to the middle of the sweep, without times; else each at its own time.)";
 
-py::tuple sweep_of(const DriveSimulator& simulator, std::size_t i) {
+py::tuple sweep_of(const DriveSimulator& simulator, py::ssize_t index) {
+  const auto i = static_cast<std::size_t>(index);
+  if (index < 0 || i >= simulator.size()) {
+    throw py::index_error("sweep " + std::to_string(index) + " of " + std::to_string(simulator.size()));
+  }
   SimulatedSweep s;
   {
     const py::gil_scoped_release others_go_on;

@@ -128,12 +128,12 @@ HtmlRows rows_of(const PythonSource& source) {
   return rows;
 }
 
-std::string source_repr(const PythonSource& source) {
-  if (source.closed()) return "<rilo.ScanSource, closed>";
+py::str source_repr(const PythonSource& source) {
+  if (source.closed()) return py::str("<rilo.ScanSource, closed>");
   const SourceInfo info = source.info();
   const auto size = source.size();
-  return "<rilo.ScanSource " + info.path.string() + ": " + info.kind + ", " + info.format + ", " +
-         (size ? std::to_string(*size) + " sweeps" : "number of sweeps not known yet") + ">";
+  return python_text("<rilo.ScanSource " + info.path.string() + ": " + info.kind + ", " + info.format + ", " +
+                     (size ? std::to_string(*size) + " sweeps" : "number of sweeps not known yet") + ">");
 }
 
 std::string sweep_repr(const SharedSweep& s) {

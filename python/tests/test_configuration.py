@@ -33,6 +33,10 @@ def test_settings_are_dicts_or_texts():
         rilo.Odometry(settings={"map.voxel_m": [1]})
     with pytest.raises(TypeError, match="settings: got 'map.voxel_m=1' of type str; expected a dict or a list"):
         rilo.Odometry(settings="map.voxel_m=1")
+    endless = {}
+    endless["map"] = endless
+    with pytest.raises(TypeError, match="settings: nested too deep at map.map"):
+        rilo.Odometry(settings=endless)
     with pytest.raises(TypeError, match="config: got 3"):
         rilo.Odometry(3)
 

@@ -1,5 +1,6 @@
 """Poses, maps and sweeps in files."""
 
+import os
 import threading
 
 import numpy as np
@@ -62,6 +63,8 @@ def test_files_are_read(tmp_path, drive):
     for sweep, (points, *_) in zip(sweeps, drive):
         assert np.array_equal(sweep.points, points) and len(sweep) == len(points)
         assert sweep.times_s is None and np.all(sweep.intensities == 1)
+    with pytest.raises(rilo.IoError, match="nowhere \ufffd"):
+        rilo.open(os.fsencode(tmp_path) + b"/nowhere \xe9")
     with pytest.raises(rilo.IoError, match="nowhere"):
         rilo.open(str(tmp_path / "nowhere"))
     assert rilo.open(tmp_path, rate=4).period_s == 0.25

@@ -20,6 +20,8 @@ def test_simulated_sweeps_are_float32_arrays(drive):
     assert len(iterated) == 2 and np.array_equal(iterated[1][0], drive[1][0]) and iterated[1][2] == drive[1][2]
     with pytest.raises(IndexError):
         rilo.Simulator(sweeps=2).sweep(2)
+    with pytest.raises(IndexError):
+        rilo.Simulator(sweeps=2).sweep(-1)
     with pytest.raises(ValueError, match="sensor: got 'hdl32'; expected hdl64"):
         rilo.Simulator(sensor="hdl32")
 

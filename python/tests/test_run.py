@@ -131,6 +131,8 @@ def test_a_run_has_the_options_of_open_and_refuses_others(recording, tmp_path):
         rilo.run(bins, settings={"map.voxel": 1})
     with pytest.raises(ValueError, match="map_voxel_m: got 0"):
         rilo.run(bins, bin_fields="x,y,z", map_voxel_m=0)
+    with pytest.raises(ValueError, match="map_voxel_m: got 0.0001; expected 0.001"):
+        rilo.run(bins, bin_fields="x,y,z", map_voxel_m=1e-4)
 
 
 @pytest.mark.parametrize("options, error, message", [

@@ -17,7 +17,8 @@ def flag(text):
 
 
 def numbers(text):
-    return [float(number) for number in text.strip("[]").split(",")]
+    inner = text.strip("[] ")
+    return [float(number) for number in inner.split(",")] if inner else []
 
 
 EXPECTED = {flag: "true or false", int: "a whole number", numbers: "a list of numbers", str: "a text"}

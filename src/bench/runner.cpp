@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -24,6 +23,7 @@
 #include "io/temporary_folder.hpp"
 #include "results/output_check.hpp"
 #include "results/run_outputs.hpp"
+#include "session/processors.hpp"
 
 namespace rilo {
 
@@ -107,7 +107,7 @@ class BenchRunner {
     BenchRunOptions flags = order_.run;
     const std::size_t at_a_time = std::max<std::size_t>(1, order_.at_a_time);
     if (flags.threads < 0 && at_a_time > 1) {
-      flags.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency() / at_a_time));
+      flags.threads = std::max(1, usable_processors() / static_cast<int>(at_a_time));
     }
     run_in_pool(open, folder_, flags, {at_a_time, order_.retries}, events);
   }

@@ -10,6 +10,7 @@
 #include "calibration/same_sensor.hpp"
 #include "config/nearest_word.hpp"
 #include "node/base_frame.hpp"
+#include "rilo/cloud/thinned_map.hpp"
 #include "rilo/config/calibration_file.hpp"
 #include "rilo/config/config_file.hpp"
 
@@ -79,7 +80,8 @@ void add_numbers(KeyVisitor& keys, NodeOptions& o) {
   keys.integer({"look_ahead", "",
                 "sweeps looked at before the first pose, for their period. 0: poses at once, the period is 1 / rate"},
                o.look_ahead, 0, 12);
-  keys.real({"map_voxel", "m", "voxel of the map that save_map writes; 0: none is kept"}, o.map_voxel_m, 0, 100);
+  keys.real({"map_voxel", "m", "voxel of the map that save_map writes; 0: none is kept"}, o.map_voxel_m, 0,
+            ThinnedMap::kMostVoxelM);
 }
 
 void add_live_numbers(KeyVisitor& keys, NodeOptions& o) {
@@ -198,6 +200,9 @@ NodeOptions with_parameters(const NodeOptions& options, const std::map<std::stri
   }
   changed.odom_frame = frame_name(changed.odom_frame);
   changed.base_frame = frame_name(changed.base_frame);
+  if (changed.map_voxel_m > 0 && changed.map_voxel_m < ThinnedMap::kLeastVoxelM) {
+    refuse("map_voxel", fmt::format("0 or at least {} m", ThinnedMap::kLeastVoxelM));
+  }
   if (changed.odom_frame.empty()) refuse("odom_frame", "the name of a frame");
   if (changed.base_frame == changed.odom_frame) refuse("base_frame", "another frame than odom_frame");
   if (!changed.base_to_lidar.empty()) {

@@ -2,10 +2,12 @@
 
 #include <iostream>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
 #include "console/interrupt.hpp"
 #include "console/text.hpp"
+#include "geometry/voxel_key.hpp"
 #include "io/folders/ground_truth.hpp"
 #include "rilo/io/io_error.hpp"
 #include "rilo/session/session.hpp"
@@ -27,6 +29,23 @@ std::unique_ptr<Viewer> announced_viewer(const ViewInfo& info, const ViewOptions
 
 constexpr double kNearM = 30.0;  // of a point of the map
 constexpr double kPoseStepM = 2.0;
+constexpr double kCellM = 5.0;
+
+using Place = std::pair<Eigen::Vector3f, std::uint32_t>;  // of the sensor, and its sweep
+
+std::uint32_t first_near(const Eigen::Vector3f& point, const std::vector<Place>& places) {
+  float nearest = std::numeric_limits<float>::max();
+  std::uint32_t sweep = 0;
+  for (const auto& [place, number] : places) {
+    const float distance = (place - point).squaredNorm();
+    if (distance < nearest) {
+      nearest = distance;
+      sweep = number;
+    }
+    if (distance < static_cast<float>(kNearM * kNearM)) break;
+  }
+  return sweep;
+}
 
 }  // namespace
 
@@ -99,26 +118,20 @@ ViewInfo view_info(const std::string& data, const OdometryConfig& config) {
 
 std::vector<std::uint32_t> first_seen(const std::vector<Eigen::Vector3f>& points,
                                       const std::vector<SweepResult>& results) {
-  std::vector<std::pair<Eigen::Vector3f, std::uint32_t>> places;  // every few metres
+  std::vector<Place> places;  // every few metres
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Eigen::Vector3f place = results[i].T_odom_lidar.translation().cast<float>();
     if (!places.empty() && (place - places.back().first).norm() < static_cast<float>(kPoseStepM)) continue;
     places.emplace_back(place, static_cast<std::uint32_t>(i));
   }
+  // One look at all places for a cell of the map: there may be millions of points.
+  std::unordered_map<std::uint64_t, std::uint32_t> by_cell;
   std::vector<std::uint32_t> seen;
   seen.reserve(points.size());
   for (const Eigen::Vector3f& point : points) {
-    float nearest = std::numeric_limits<float>::max();
-    std::uint32_t sweep = 0;
-    for (const auto& [place, number] : places) {
-      const float distance = (place - point).squaredNorm();
-      if (distance < nearest) {
-        nearest = distance;
-        sweep = number;
-      }
-      if (distance < static_cast<float>(kNearM * kNearM)) break;
-    }
-    seen.push_back(sweep);
+    const auto [cell, is_new] = by_cell.try_emplace(voxel_key(voxel_of(point, 1.0 / kCellM)));
+    if (is_new) cell->second = first_near(point, places);
+    seen.push_back(cell->second);
   }
   return seen;
 }

@@ -62,7 +62,7 @@ class LiveView {
 ViewInfo view_info(const std::string& data, const OdometryConfig& config);
 
 /// For each point of a map the first of `results` that was near it, or the nearest one: the order in which a finished
-/// run saw its map.
+/// run saw its map. Points within a few metres of each other have the same.
 std::vector<std::uint32_t> first_seen(const std::vector<Eigen::Vector3f>& points,
                                       const std::vector<SweepResult>& results);
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,6 +21,7 @@
 #include "session/dropped_calibration.hpp"
 #include "session/map_beginnings.hpp"
 #include "session/process_memory.hpp"
+#include "session/processors.hpp"
 
 namespace rilo {
 
@@ -47,8 +47,7 @@ class Session::Impl {
   const ScanSource& source() const { return *source_; }
 
   SessionResult run() {
-    const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    result_.threads = options_.config.threads > 0 ? options_.config.threads : processors;
+    result_.threads = options_.config.threads > 0 ? options_.config.threads : usable_processors();
     if (!options_.one_pass) guarded([this] { look_ahead(); });
     const std::int64_t begin_ns = steady_ns();
     if (!result_.failure) guarded([this] { run_sweeps(); });

@@ -130,8 +130,11 @@ Frame PageSocket::next_frame() {
 Frame PageSocket::next_sweep() {
   const SweepStore& sweeps = hub_.history.sweeps();
   if (wanted_) {
-    Frame frame = sweeps.at(*std::exchange(wanted_, std::nullopt));
-    if (frame) return frame;
+    // None yet: it stays wanted.
+    if (Frame frame = sweeps.at(*wanted_)) {
+      wanted_.reset();
+      return frame;
+    }
   }
   if (!follow_ || sweeps.size() == 0 || told_sweep_ == sweeps.newest_number()) return nullptr;
   told_sweep_ = sweeps.newest_number();

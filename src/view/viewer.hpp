@@ -37,7 +37,8 @@ class Viewer {
   virtual const std::string& url() const = 0;
 
   /// Hands a sweep over. When the viewer cannot keep up, the sweep's points are dropped, its pose and statistics never:
-  /// that takes microseconds. With `wait` they are kept, and it waits until the viewer has room: for replays.
+  /// then it takes microseconds beside the copy of the sweep. With `wait` they are kept, and it waits until the viewer
+  /// has room: for replays.
   virtual void push(ViewSweep sweep, bool wait) = 0;
 
   /// Numbers (counted from the first one that was pushed) of sweeps whose points were dropped, ascending: those that

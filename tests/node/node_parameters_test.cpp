@@ -155,6 +155,12 @@ TEST(NodeParameters, ChangesAreTakenTogetherOrNotAtAll) {
               HasSubstr("local_map_period"));
 }
 
+TEST(NodeParameters, AMapHasVoxelsOrNone) {
+  EXPECT_EQ(node_options({{"map_voxel", 0.0}}).map_voxel_m, 0.0);
+  EXPECT_EQ(node_options({{"map_voxel", 0.001}}).map_voxel_m, 0.001);
+  EXPECT_THAT(refusal([] { node_options({{"map_voxel", 1e-4}}); }), HasSubstr("map_voxel: expected 0 or at least"));
+}
+
 TEST(NodeParameters, AnglesOfAListAreYawPitchRoll) {
   const SE3 T = pose_from_list({1, 2, 3, 0.4, 0.02, -0.01});
   const Eigen::Quaterniond q(T.linear());

@@ -66,7 +66,6 @@ TEST(HtmlReport, DataOfTheCharts) {
   EXPECT_GT(data["map"]["width"].get<int>(), 10);
 }
 
-// A share of 0 would say that all was wrong where nothing was tried.
 TEST(HtmlReport, SweepsKeepTheirPlacesInTheData) {
   RunReport run = drive(3);
   EXPECT_TRUE(data_of(page(run))[0]["numbers"].is_null());
@@ -76,6 +75,7 @@ TEST(HtmlReport, SweepsKeepTheirPlacesInTheData) {
   EXPECT_THROW(page(run), std::invalid_argument);
 }
 
+// A share of 0 would say that all was wrong where nothing was tried.
 TEST(HtmlReport, WithoutARegistrationThereAreNoInliers) {
   RunReport run = drive(10);
   run.sweeps[0].stats.iterations = 0;

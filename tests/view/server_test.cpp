@@ -91,6 +91,20 @@ TEST(ViewServer, APageThatComesLateGetsEverything) {
   }
 }
 
+// It looks back before the first points are there.
+TEST(ViewServer, ASweepThatIsAskedForTooEarlyComesLater) {
+  Server server;
+  Page page(server);
+  page.send({2, 1, 0, 0, 0, 0, 0, 0});  // follow nothing
+  page.send(ask_sweep(0));
+  EXPECT_EQ(page.read().at(0), 1U);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // it is read meanwhile: nothing tells
+  server.add(1);
+  const Bytes frame = page.until(FrameType::kSweep);
+  ASSERT_FALSE(frame.empty());
+  EXPECT_EQ(u32(frame, 8), 0U);
+}
+
 TEST(ViewServer, ARunThatStartsOverIsShownFromItsFirstSweep) {
   Server server;
   server.add(300);

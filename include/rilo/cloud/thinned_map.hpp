@@ -22,6 +22,10 @@ struct MapCloud {
 /// time.
 class ThinnedMap {
  public:
+  /// Smaller voxels would share their keys, larger ones are no map (m).
+  static constexpr double kLeastVoxelM = 0.001;
+  static constexpr double kMostVoxelM = 100.0;
+
   explicit ThinnedMap(double voxel_m) : voxel_m_(voxel_m) {}
 
   /// Adds points of the sensor frame (m, finite) seen at `T_odom_lidar`; `intensities`: empty for all sweeps, or as

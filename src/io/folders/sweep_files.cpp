@@ -132,8 +132,9 @@ std::optional<Subfolder> subfolder_with_sweeps(const fs::path& folder, const std
 
 std::string what_to_give(const fs::path& folder) {
   if (const std::vector<fs::path> arrays = files_with(folder, {".npy"}); !arrays.empty()) {
-    return "Make a .bin of each array of points (N×3, N×4): numpy.load(\"" + arrays[0].filename().string() +
-           "\").astype(\"<f4\").tofile(\"" + arrays[0].stem().string() + ".bin\"), or register them from Python";
+    return "Make a .bin of x, y, z of each array: numpy.load(\"" + arrays[0].filename().string() +
+           "\")[:, :3].astype(\"<f4\").tofile(\"" + arrays[0].stem().string() +
+           ".bin\"), and give --bin-fields x,y,z; or register them from Python, with their times";
   }
   return std::string("Give the folder that holds the sweeps themselves. ") + kOtherFormats;
 }

@@ -162,7 +162,8 @@ fs::path find_metadata(const fs::path& path, const Contents& contents) {
                 : std::to_string(beside.usable.size()) +
                       " metadata files of an Ouster beside it, and its name does not say which: " + beside.names()),
        "packets of a Velodyne (1206 bytes), or of an Ouster and its metadata",
-       "Name the Ouster's metadata with --sensor-file; check that the right interface was recorded"});
+       "Of an Ouster: name its metadata with --sensor-file. Of another sensor: record the point clouds that its driver "
+       "makes of them. Else check that the right interface was recorded"});
 }
 
 // The metadata of another sensor: the angles of all beams would be wrong.

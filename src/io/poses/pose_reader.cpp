@@ -68,6 +68,15 @@ class Table {
   std::string remedy_;
 };
 
+// Beyond it numbers are of another unit or form, and voxels of a map have no index.
+constexpr double kFarthestM = 1e9;
+
+void check_place(const Table& table, const Eigen::Vector3d& t) {
+  if (t.norm() > kFarthestM) {
+    table.fail(0, "a position " + std::to_string(t.norm()) + " m away", "metres, below 1e9");
+  }
+}
+
 SE3 to_pose(const Table& table, const std::array<double, kPoseNumbers>& values) {
   SE3 pose = SE3::Identity();
   pose.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(values.data());
@@ -77,6 +86,7 @@ SE3 to_pose(const Table& table, const std::array<double, kPoseNumbers>& values) 
     table.fail(0, "a matrix that is not a rotation (RᵀR is off by " + std::to_string(off) + ")", "a rigid transform");
   }
   if (R.determinant() < 0) table.fail(0, "a reflection (determinant -1)", "a rigid transform");
+  check_place(table, pose.translation());
   return pose;
 }
 
@@ -85,6 +95,7 @@ StampedPose stamped_pose(const Table& table, std::int64_t stamp_ns, const Eigen:
   if (std::abs(q.norm() - 1) > kRigidTolerance) {
     table.fail(0, "a quaternion of norm " + std::to_string(q.norm()), "norm 1");
   }
+  check_place(table, t);
   StampedPose pose;
   pose.stamp_ns = stamp_ns;
   pose.T_odom_lidar.linear() = q.normalized().toRotationMatrix();
@@ -106,7 +117,7 @@ std::vector<SE3> read_kitti_poses(const std::filesystem::path& file) { return ki
 std::vector<SE3> read_growing_kitti_poses(const std::filesystem::path& file) { return kitti_poses(file, true); }
 
 Trajectory read_tum(const std::filesystem::path& file) {
-  Table table(file, "Give a file of poses in TUM form, t x y z qx qy qz qw a line");
+  Table table(file, "Give a file of poses in TUM form, t x y z qx qy qz qw a line; 12 numbers a line are KITTI's form");
   Trajectory trajectory;
   while (const auto line = table.next()) {
     const auto values = table.numbers<kStampedNumbers>(*line, 1);

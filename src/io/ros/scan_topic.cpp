@@ -101,13 +101,17 @@ RecordedTopic choose_topic(const std::filesystem::path& path, const std::vector<
     throw IoError({path, "", counted(found.size(), "topic") + " of " + kind + ": " + list_of(found), "one",
                    "Choose one with --topic"});
   }
-  const bool has_flat_scans = std::any_of(topics.begin(), topics.end(), [](const RecordedTopic& topic) {
-    return without_msg(topic.type) == "sensor_msgs/LaserScan";
-  });
-  throw IoError({path, "", list_of(topics),
-                 std::string("a topic of type ") + kKnownTypes + " in ROS 1's or CDR encoding",
-                 std::string("Record the sensor's point clouds (sensor_msgs/PointCloud2)") +
-                     (has_flat_scans ? "; scans of one plane (LaserScan) do not give a pose in space" : "")});
+  const auto has_type = [&](std::string_view type) {
+    return std::any_of(topics.begin(), topics.end(),
+                       [&](const RecordedTopic& topic) { return without_msg(topic.type) == type; });
+  };
+  std::string remedy = "Record the sensor's point clouds (sensor_msgs/PointCloud2)";
+  if (has_type("sensor_msgs/LaserScan")) remedy += "; scans of one plane (LaserScan) do not give a pose in space";
+  if (has_type("sensor_msgs/PointCloud")) {
+    remedy += "; those of version 1 (PointCloud) are not read: point_cloud_converter makes PointCloud2 of them";
+  }
+  throw IoError({path, "", "no scans in " + list_of(topics),
+                 std::string("a topic of type ") + kKnownTypes + " in ROS 1's or CDR encoding", remedy});
 }
 
 }  // namespace rilo::detail

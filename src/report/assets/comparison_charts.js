@@ -54,11 +54,11 @@ function choose(comparison, host) {
 // Rows of name, bar and number. Values far beyond the others are cut off, or these could not be distinguished.
 function barRows(rows, digits) {
   const values = rows.map((row) => row.value).filter((v) => finite(v)).sort((a, b) => a - b);
-  const median = values.length ? values[(values.length - 1) >> 1] : 0, most = values.length ? values[values.length - 1] : 0;
+  const median = values.length ? values[values.length >> 1] : 0, most = values.length ? values[values.length - 1] : 0;
   const top = (median > 0 && most > 6 * median ? values.filter((v) => v <= 6 * median).pop() * 1.25 : most) || 1;
   return rows.map(({ name, value, color }) => {
     const cut = value > top, width = finite(value) ? Math.min(100, Math.max(0, value / top * 100)) : 0;
-    return `<tr><th scope="row">${esc(name)}</th><td class="track">${finite(value) ? `<i class="${cut ? 'cut' : ''}" style="width:${width.toFixed(1)}%;background-color:${color}"></i>` : ''}</td>` +
+    return `<tr><th scope="row">${esc(name)}</th><td class="track">${finite(value) ? `<i class="${cut ? 'cut' : ''}"${cut ? ' title="longer than shown"' : ''} style="width:${width.toFixed(1)}%;background-color:${color}"></i>` : ''}</td>` +
       `<td class="value">${finite(value) ? value.toFixed(digits) : '–'}</td></tr>`;
   }).join('');
 }

@@ -187,6 +187,7 @@ TEST(PoseFileTest, KittiErrorsHaveLineAndColumn) {
   fails("2 0 0 5 0 1 0 6 0 0 1 7\n", {"line 2", "not a rotation", "rigid"});
   fails("0 0 0 5 0 0 0 6 0 0 0 7\n", {"line 2", "not a rotation"});
   fails("-1 0 0 5 0 1 0 6 0 0 1 7\n", {"line 2", "reflection"});
+  fails("1 0 0 5 0 1 0 6 0 0 1 7e9\n", {"line 2", "a position", "below 1e9"});
   expect_io_error([&] { read_kitti_poses(folder / "none.txt"); }, {"none.txt", "No such file"});
   expect_io_error([&] { read_kitti_poses(folder.path()); }, {"it is a folder"});
 }

@@ -113,6 +113,13 @@ class FileSource final : public ScanSource {
     if (!timing_.reads_times()) return;
     const FirstTimes first = promised ? first_times() : FirstTimes{};
     timing_.promise(promised, first.ends, first.stamps_ns);
+    const auto& shown = timing_.shown_period();
+    if (!listing_.info.stamps_assumed || options_.rate_hz || !shown) return;
+    if (shown->by_stamps) {
+      listing_.info.period_s = shown->s;
+    } else {
+      assume_stamps(listing_, sweep_length_s(shown->s));
+    }
   }
 
   std::optional<Sweep> next() override {
@@ -144,9 +151,11 @@ class FileSource final : public ScanSource {
     info.point_times = timing_.description();
     if (timing_.sets_stamps()) info.stamps_assumed = false;
     if (info.stamps_assumed && info.kind != "file") {
+      const bool shown = timing_.shown_period() && !options_.rate_hz;
+      const std::string why = shown ? fmt::format(", since a sweep lasts {:.3g} s", info.period_s) : "";
       info.warnings.insert(
           info.warnings.begin(),
-          fmt::format("no timestamps found; assuming {:g} Hz (change with --rate)", options_.assumed_rate_hz()));
+          fmt::format("no timestamps found; assuming {:.3g} Hz{} (change with --rate)", 1 / info.period_s, why));
     }
     for (std::string& warning : timing_.warnings()) info.warnings.push_back(std::move(warning));
     add_bad_sweep_count(info);
@@ -176,6 +185,22 @@ class FileSource final : public ScanSource {
       }
     }
     return first;
+  }
+
+  // All points of a sweep span a little more than the bulk of them, which shows the period; single ones may be far off.
+  double sweep_length_s(double bulk_s) {
+    constexpr double kMostMore = 1.15;
+    const SweepTiming as_before = timing_;
+    double length_s = bulk_s;
+    try {
+      const Sweep sweep = load(0);
+      const auto [first, last] = std::minmax_element(sweep.times_s.begin(), sweep.times_s.end());
+      if (first != last) length_s = std::clamp(static_cast<double>(*last - *first), bulk_s, kMostMore * bulk_s);
+    } catch (const IoError&) {
+      // Reported when it is reached.
+    }
+    timing_ = as_before;
+    return length_s;
   }
 
   Sweep load(std::size_t index) {

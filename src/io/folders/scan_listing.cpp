@@ -70,6 +70,15 @@ std::vector<std::int64_t> find_stamps(const fs::path& folder, bool look_above, S
   return {};
 }
 
+void assume_stamps(ScanListing& listing, double period_s) {
+  listing.info.period_s = period_s;
+  listing.info.stamps_assumed = true;
+  listing.stamps_ns.clear();
+  for (const std::int64_t place : places_from_names(listing.files)) {
+    listing.stamps_ns.push_back(std::llround(static_cast<double>(place) * period_s * 1e9));
+  }
+}
+
 void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const SourceOptions& options) {
   listing.info.period_s = 1 / options.assumed_rate_hz();
   if (!stamps.empty()) {
@@ -81,11 +90,7 @@ void set_stamps(ScanListing& listing, std::vector<std::int64_t> stamps, const So
     note_odd_period(listing.stamp_file.empty() ? "the names of the files" : listing.stamp_file.string(), listing.info);
     return;
   }
-  listing.info.stamps_assumed = true;
-  const double period_ns = 1e9 / options.assumed_rate_hz();
-  for (const std::int64_t place : places_from_names(listing.files)) {
-    listing.stamps_ns.push_back(std::llround(static_cast<double>(place) * period_ns));
-  }
+  assume_stamps(listing, 1 / options.assumed_rate_hz());
 }
 
 ScanListing list_single_file(const fs::path& file, const SourceOptions& options) {

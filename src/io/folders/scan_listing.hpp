@@ -36,6 +36,9 @@ ScanListing list_folder(const std::filesystem::path& folder, const SourceOptions
 /// Where in a data folder of one of these kinds the sweeps lie; the folder itself for others.
 std::filesystem::path sweep_folder(const std::filesystem::path& data);
 
+/// Stamps of sweeps that have none, one every `period_s`.
+void assume_stamps(ScanListing& listing, double period_s);
+
 /// What is known of a listing from its files.
 ScanListing listing_of(const char* kind, const std::filesystem::path& path, SweepFiles found);
 

@@ -48,7 +48,12 @@ void SweepTiming::promise(const std::optional<std::string>& times, const std::ve
 
 // As the sweeps will be decoded. The first sweep may lack times, and what stamps the others shows only then.
 void SweepTiming::expect_clock(const std::vector<RawTimes>& ends, const std::vector<std::int64_t>& stamps_ns) {
+  constexpr double kLonger = 1.25;  // than a sweep of the assumed period, whose ends may overlap
+  constexpr double kLongestPeriodS = 10.0;
   PointTimeDecoder trial = decoder_;
+  std::optional<std::int64_t> before_ns;
+  double least_step_s = kLongestPeriodS;
+  double longest_s = 0;
   for (std::size_t i = 0; i < std::min(ends.size(), stamps_ns.size()); ++i) {
     Sweep sweep;
     sweep.points.assign(ends[i].size(), Eigen::Vector3f::Ones());
@@ -57,7 +62,19 @@ void SweepTiming::expect_clock(const std::vector<RawTimes>& ends, const std::vec
     } catch (const IoError&) {
       continue;  // reported when it is reached
     }
-    if (trial.convention()->reference == PointTimeReference::kEpoch) clock_.expect(stamps_ns[i], sweep.stamp_ns);
+    const auto [first, last] = std::minmax_element(sweep.times_s.begin(), sweep.times_s.end());
+    if (first != last) longest_s = std::max(longest_s, static_cast<double>(*last - *first));
+    if (trial.convention()->reference != PointTimeReference::kEpoch) continue;
+    clock_.expect(stamps_ns[i], sweep.stamp_ns);
+    const double step_s = before_ns ? seconds_between(*before_ns, sweep.stamp_ns) : 0.0;
+    if (step_s > 0) least_step_s = std::min(least_step_s, step_s);  // others may be gaps
+    before_ns = sweep.stamp_ns;
+  }
+  const bool of_time = trial.convention() && trial.convention()->unit != PointTimeUnit::kFraction;
+  if (least_step_s < kLongestPeriodS) {
+    shown_period_ = {least_step_s, true};
+  } else if (of_time && longest_s > kLonger * period_s_ && longest_s < kLongestPeriodS) {
+    shown_period_ = {longest_s, false};
   }
 }
 

@@ -44,6 +44,12 @@ class SweepTiming {
   std::vector<std::string> warnings() const;
   /// The points' times count from an epoch: they set the stamps.
   bool sets_stamps() const;
+  /// Where the stamps are assumed: the period that the promised times show.
+  struct ShownPeriod {
+    double s = 0;
+    bool by_stamps = false;  ///< by the steps of times from an epoch; false: sweeps last longer than assumed, so long
+  };
+  const std::optional<ShownPeriod>& shown_period() const { return shown_period_; }
 
  private:
   void stamp(const std::optional<RawTimes>& times, const std::filesystem::path& file, Sweep& sweep);
@@ -57,6 +63,7 @@ class SweepTiming {
   bool stamps_in_field_;  // one stamp for all points of a sweep is enough
   PointTimeDecoder decoder_;
   PointClock clock_;
+  std::optional<ShownPeriod> shown_period_;
   bool constant_ = false;  // the field, in all sweeps so far
   std::string constant_field_;
   bool has_times_ = false;

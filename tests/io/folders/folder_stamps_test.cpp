@@ -1,6 +1,7 @@
 // When the sweeps of a folder were taken: by their names, by files beside them, by their numbers.
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -154,6 +155,43 @@ TEST(FolderStampsTest, TimesThatPointsAreNotToHaveStampTheirSweepsAllTheSame) {
     for (const Sweep& sweep : sweeps) EXPECT_EQ(sweep.times_s.empty(), how == PointTimes::kNone);
     EXPECT_NEAR(1e-9 * static_cast<double>(sweeps[3].stamp_ns - sweeps[0].stamp_ns), 1.5, 1e-5);
   }
+}
+
+TEST(FolderStampsTest, StampsOfThePointsShowThePeriod) {
+  const TempDir folder;
+  write_with_epoch_times(folder, {0, 0.41, 0.82, 1.23}, 0.001);
+  const auto source = open_scan_source(folder.path());
+  EXPECT_NEAR(source->info().period_s, 0.41, 1e-6);
+  EXPECT_EQ(sweeps_of(*source).size(), 4U);
+  EXPECT_FALSE(has_warning(source->info(), "a gap of"));
+}
+
+// A slow sensor without stamps.
+TEST(FolderStampsTest, SweepsThatLastLongerThanTheAssumedPeriodShowIt) {
+  const TempDir folder;
+  const auto period_of = [&](double length_s, std::optional<double> rate_hz = std::nullopt) {
+    for (const char* name : {"0.ply", "1.ply", "2.ply"}) {
+      std::string text =
+          "ply\nformat ascii 1.0\nelement vertex 101\nproperty float x\nproperty float y\n"
+          "property float z\nproperty float t\nend_header\n";
+      for (int i = 0; i <= 100; ++i) {
+        text += std::to_string(1 + i) + " 2 3 " + std::to_string(length_s * i / 100) + "\n";
+      }
+      folder.write(name, text);
+    }
+    SourceOptions options;
+    options.rate_hz = rate_hz;
+    const auto source = open_scan_source(folder.path(), options);
+    const auto sweeps = sweeps_of(*source);
+    EXPECT_NEAR(1e-9 * static_cast<double>(sweeps.at(2).stamp_ns), 2 * source->info().period_s, 1e-9);
+    EXPECT_EQ(sweeps.at(0).times_s.size(), 101U);
+    EXPECT_EQ(has_warning(source->info(), "since a sweep lasts"), length_s > 0.2 && !rate_hz);
+    return source->info().period_s;
+  };
+  EXPECT_NEAR(period_of(0.41), 0.41, 1e-6);
+  EXPECT_DOUBLE_EQ(period_of(0.1), 0.1);
+  EXPECT_DOUBLE_EQ(period_of(0.05), 0.1) << "a window of a sweep, perhaps";
+  EXPECT_DOUBLE_EQ(period_of(0.41, 4), 0.25);
 }
 
 TEST(FolderStampsTest, TimesThatMakeNoSenseAreNoErrorWherePointsAreNotToHaveThem) {

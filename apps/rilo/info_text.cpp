@@ -21,6 +21,14 @@ std::string listed(const nlohmann::json& names) {
   return fmt::format("{}", fmt::join(names.get<std::vector<std::string>>(), " "));
 }
 
+/// Points on the cones of the beams are raw, and yet these times do not fit them. Sweeps that were simulated at one
+/// instant are raw, too, and fit no times.
+bool wrong_times(const nlohmann::json& j) {
+  const auto& trial = j["compensation"];
+  return !trial.is_null() && trial["compensated"].get<bool>() && timed(j) &&
+         2 * count(trial["on_cones"]) > count(trial["sweeps"]);
+}
+
 /// What to run next: one line where it is clear, else one for each case.
 std::string advice(const nlohmann::json& j, const std::string& options) {
   const std::string run = "rilo run " + shell_quoted(word(j["data"])) + options + " --out results";
@@ -33,7 +41,11 @@ std::string advice(const nlohmann::json& j, const std::string& options) {
     lines.push_back(" --time-field " + shell_quoted(word(field)) + "   (if this field holds the points' times)");
   }
   if (timed(j)) {
-    lines.emplace_back(compensated ? " --point-times none" : "");
+    // Sparse sweeps fit no times well.
+    lines.emplace_back(wrong_times(j) ? "   (if these are the points' times)"
+                       : compensated  ? " --point-times none"
+                                      : "");
+    if (wrong_times(j)) lines.emplace_back(" --point-times none   (if they are not)");
   } else if (raw || compensated) {
     lines.emplace_back(raw ? "   (finds out that the points are raw)" : "   (finds out that they are compensated)");
   } else {
@@ -59,20 +71,26 @@ std::string points_text(const nlohmann::json& j) {
 
 std::string compensation_text(const nlohmann::json& j) {
   const auto& trial = j["compensation"];
-  if (trial.is_null() || count(trial["sweeps"]) == 0) return "";
+  if (trial.is_null()) return "";
+  const std::size_t lost = count(trial["lost"]);
+  if (lost > count(trial["sweeps"])) {
+    return fmt::format(
+        "motion        {} do not fit those before them: out of order, too far apart, or too small a part of a "
+        "turn?\n",
+        counted(lost, "sweep"));
+  }
+  if (count(trial["sweeps"]) == 0) return "";
   const bool raw = trial["raw"].get<bool>();
   const bool compensated = trial["compensated"].get<bool>();
   const std::string times = word(trial["times"]);
-  // Sweeps that were simulated at one instant are raw, too, and fit no times.
-  const bool wrong_times = compensated && timed(j) && 2 * count(trial["on_cones"]) > count(trial["sweeps"]);
   return fmt::format("motion        {} of {} fit better when their points are compensated with {}{}: {}\n",
                      count(trial["better"]), counted(count(trial["sweeps"]), "sweep"),
                      timed(j) ? "their times" : "the times of their " + times,
                      cones_text(count(trial["on_cones"]), count(trial["off_cones"])),
-                     raw           ? "raw points"
-                     : wrong_times ? "raw points that these times do not fit: another field, unit or order?"
-                     : compensated ? "they are compensated already"
-                                   : "not certain");
+                     raw              ? "raw points"
+                     : wrong_times(j) ? "raw points that these times do not fit: another field, unit or order?"
+                     : compensated    ? "they are compensated already"
+                                      : "not certain");
 }
 
 }  // namespace

@@ -65,6 +65,7 @@ struct TrialMetrics {
   std::size_t better = 0;
   std::size_t on_cones = 0;
   std::size_t off_cones = 0;
+  std::size_t lost = 0;
   bool raw = false;
   bool compensated = false;
   friend bool operator==(const TrialMetrics&, const TrialMetrics&) = default;

@@ -85,6 +85,7 @@ void list(auto& f, Is<TrialMetrics> auto& m) {
   f.key("better", m.better);
   f.key("on_cones", m.on_cones);
   f.key("off_cones", m.off_cones);
+  f.key("lost", m.lost);
   f.key("raw", m.raw);
   f.key("compensated", m.compensated);
 }

@@ -141,6 +141,7 @@ TrialMetrics trial_metrics(const CompensationTrial& trial) {
           trial.better,
           trial.on_cones,
           trial.off_cones,
+          trial.lost,
           trial.raw(),
           trial.compensated()};
 }

@@ -26,6 +26,7 @@ constexpr double kTwoUsualTurnsS = 0.15;   // at 5 Hz sweeps are all of a slow s
 constexpr double kConesShare = 0.5;        // of the compared sweeps: mostly nearly all, or none
 constexpr double kMostLost = 0.1;          // of the compared sweeps
 constexpr std::size_t kMostSweeps = 300;   // one that stands for longer is not compared
+constexpr std::size_t kManyLost = 20;      // with no more that were compared nothing becomes certain
 constexpr std::size_t kBeginning = 3;      // sweeps of a map that is still built with guesses
 
 bool mostly(std::size_t better, std::size_t sweeps) {
@@ -81,6 +82,7 @@ Fits fits_of(ScanSource& source, const OdometryConfig& config, double turn_s, st
       const SweepResult result = odometry.register_sweep(*sweep);
       fits.lost += !fits.sweeps.empty() && !tracked(result) ? 1 : 0;
       const bool usable = fits.sweeps.size() >= kBeginning && registered(result);
+      if (fits.lost >= kManyLost && fits.lost >= compared) break;
       fits.sweeps.push_back({usable && (!with_times || moved(result, turn_s)), result.stats.residual_rms_m});
       if (!with_times || !fits.sweeps.back().compared) continue;
       fits.sweeps.back().cones = on_beam_cones(*sweep, result.twist);

@@ -90,7 +90,7 @@ TEST(Metrics, CompensationNeedsTimesAndIsTriedWithoutThem) {
   EXPECT_FALSE(run_metrics(run).motion_compensation);
   EXPECT_FALSE(run_metrics(run).compensation);
   run.trial = {PointTimes::kOrder, 10, 6, 3, 1, 0};
-  EXPECT_EQ(run_metrics(run).compensation, (TrialMetrics{"order", 10, 6, 3, 1, true, false}));
+  EXPECT_EQ(run_metrics(run).compensation, (TrialMetrics{"order", 10, 6, 3, 1, 0, true, false}));
   run.trial.times = PointTimes::kAuto;
   EXPECT_FALSE(run_metrics(run).compensation);
   run.source.has_point_times = true;

@@ -36,12 +36,14 @@ class PcdHeaderParser {
       take(words);
       if (words[0] == "DATA") return finished();
     }
+    if (lines_.number() == 0) fail("an empty file", "a PCD header");
     fail("the header ends without a DATA line", "DATA ascii, binary or binary_compressed");
   }
 
  private:
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
-    throw IoError({file_, at_line(lines_.number()), found, expected, kRemedy});
+    const std::string where = lines_.number() > 0 ? at_line(lines_.number()) : "";
+    throw IoError({file_, where, found, expected, kRemedy});
   }
 
   void take(const std::vector<std::string_view>& words) {

@@ -74,15 +74,17 @@ class StampOrder final : public WrappedSource {
     }
     if (back_ns > kClockJumpNs || ++in_a_row_ > kMostInARow) {
       ++faults_.clock_jumps;
-      const bool named = inner_->info().kind == "folder";
       warn(fmt::format("the stamps go back by {:.3f} s: taken as a clock that was set{}", back_s,
-                       named ? "; or are the files not named in the order of time?" : ""));
+                       by_name() ? "; or are the files not named in the order of time?" : ""));
       return true;
     }
     ++faults_.out_of_order;
-    warn(fmt::format("dropped: {:.3f} s older than a sweep before", back_s));
+    warn(fmt::format("dropped: {:.3f} s older than a sweep before{}", back_s,
+                     by_name() && faults_.out_of_order == 1 ? "; are the files not named in the order of time?" : ""));
     return false;
   }
+
+  bool by_name() const { return inner_->info().kind == "folder"; }
 
   void look_for_gap(double step_s) {
     const double period_s = inner_->info().period_s;

@@ -1,5 +1,6 @@
 // rilo quality: how sharp the map of a trajectory is; needs no ground truth.
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -14,13 +15,17 @@
 #include "command.hpp"
 #include "console/progress.hpp"
 #include "console/text.hpp"
+#include "results/saved_run.hpp"
 #include "results/sweep_poses.hpp"
 #include "rilo/evaluation/map_quality.hpp"
+#include "rilo/io/io_error.hpp"
 #include "rilo/io/scan_source.hpp"
 #include "rilo/session/session.hpp"
 #include "source_flags.hpp"
 
 namespace rilo::cli {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -66,6 +71,22 @@ std::optional<std::string> doubtful_pairs(const SweepPoses& poses, const std::op
       counted(poses.size(), "pose"), counted(*sweeps, "sweep"));
 }
 
+/// The run that the poses are of had other times of the points. They are not taken: figures of several programs compare
+/// where the sweeps are read alike.
+std::optional<std::string> other_times(const QualityFlags& flags, const SourceInfo& source) {
+  const auto kind = [](const std::string& times) { return times.substr(0, times.find(',')); };
+  try {
+    const fs::path folder = fs::path(flags.poses).parent_path();
+    if (!is_saved_run(folder)) return std::nullopt;
+    const std::string of_run = read_metrics(folder / "metrics.json").point_times;
+    if (kind(of_run) == kind(source.point_times)) return std::nullopt;
+    return fmt::format("the run had point times \"{}\", here they are \"{}\": see --point-times", of_run,
+                       source.point_times);
+  } catch (const IoError&) {
+    return std::nullopt;  // of another program
+  }
+}
+
 QualityRun measure(const QualityFlags& flags) {
   const SweepPoses poses(read_poses(flags.poses), flags.pairing);
   MapQualityMeter meter(flags.config);
@@ -95,6 +116,7 @@ QualityRun measure(const QualityFlags& flags) {
                              run.quality.sweeps, counted(sweeps.value_or(at.index), "sweep"));
   const auto doubt = doubtful_pairs(poses, sweeps_to_do(*source, flags.start, 0));
   if (doubt) run.source.warnings.push_back(flags.poses + ": " + *doubt);
+  if (const auto times = other_times(flags, run.source)) run.source.warnings.push_back(flags.poses + ": " + *times);
   return run;
 }
 

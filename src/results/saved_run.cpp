@@ -28,15 +28,6 @@ namespace fs = std::filesystem;
 constexpr const char* kMetrics = "metrics.json";
 constexpr const char* kAgain = "Run rilo run again";
 
-/// What an older version did not write is said to be unknown.
-RunMetrics read_metrics(const fs::path& file) {
-  RunMetrics metrics = metrics_of(read_json_object(file, "metrics.json of rilo run", kAgain), file);
-  for (std::string* text : {&metrics.rilo_version, &metrics.point_times}) {
-    if (text->empty()) *text = "unknown";
-  }
-  return metrics;
-}
-
 void fill_record(const RunMetrics& metrics, RunRecord& run) {
   run.command_line = metrics.command;
   // A relative path is one from where the run was started.
@@ -143,6 +134,14 @@ SavedRun read_killed_run(const fs::path& folder) {
 }
 
 }  // namespace
+
+RunMetrics read_metrics(const fs::path& file) {
+  RunMetrics metrics = metrics_of(read_json_object(file, "metrics.json of rilo run", kAgain), file);
+  for (std::string* text : {&metrics.rilo_version, &metrics.point_times}) {
+    if (text->empty()) *text = "unknown";
+  }
+  return metrics;
+}
 
 bool is_saved_run(const fs::path& folder) {
   return detail::is_file(folder / kMetrics) || detail::is_file(folder / kPartialPoses);

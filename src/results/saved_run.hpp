@@ -21,6 +21,9 @@ struct SavedRun {
 /// Whether the folder holds results of a run, whole or partial.
 bool is_saved_run(const std::filesystem::path& folder);
 
+/// metrics.json of a run; what an older version did not write is "unknown". @throws IoError
+RunMetrics read_metrics(const std::filesystem::path& file);
+
 /// @throws IoError when a file is missing or malformed, or the files do not belong together.
 SavedRun read_saved_run(const std::filesystem::path& folder);
 

@@ -80,6 +80,16 @@ TEST(QualityCommand, SweepsAreMotionCompensatedWithThePoses) {
   EXPECT_LT(compensated["mean_map_entropy"], as_read["mean_map_entropy"]);
 }
 
+TEST(QualityCommand, SaysWhereTheRunHadOtherTimes) {
+  const TempDir folder;
+  rilo_succeeds({"run", shared_drive(), "--out", folder / "r", "--quiet", "--no-report"});
+  const std::string poses = folder / "r/poses_lidar.txt";
+  EXPECT_TRUE(quality(shared_drive(), poses)["warnings"].empty());
+  const json without = quality(shared_drive(), poses, {"--point-times", "none"})["warnings"];
+  ASSERT_EQ(without.size(), 1U);
+  EXPECT_NE(without[0].get<std::string>().find("here they are \"none\": see --point-times"), std::string::npos);
+}
+
 TEST(QualityCommand, StampsPairAsTheIndexDoes) {
   const TempDir folder;
   rilo_succeeds({"run", shared_drive(), "--out", folder / "out", "--quiet"});

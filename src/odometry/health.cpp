@@ -9,7 +9,7 @@ bool is_degenerate(const IcpResult& icp, const HealthConfig& config, double unse
 }
 
 LossCause loss_cause(const IcpResult& icp, const Evidence& evidence, const HealthConfig& config) {
-  if (evidence.shrunk) return LossCause::kCovered;
+  if (evidence.covered) return LossCause::kCovered;
   if (icp.termination == IcpTermination::kSingular) return LossCause::kUnsolved;
   if (evidence.cut_off) return LossCause::kOutOfTime;
   if (evidence.misplaced != LossCause::kNone) return evidence.misplaced;

@@ -86,7 +86,7 @@ void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& guess
   result.status = OdometryStatus::kInitialising;
   contradicted_ = false;
   const MotionState state = tracker_.begin(guess);
-  judge_.begin(prepared);
+  judge_.begin(prepared, result.stats.loss_cause == LossCause::kCovered);
   insert(prepared.map_cloud, result, [&](const TimedCloud& cloud) {
     map_.begin(cloud, state, prepared.scene_range_m, calibration_.pose_by_elevation());
   });

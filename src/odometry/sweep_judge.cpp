@@ -43,7 +43,9 @@ Judgement SweepJudge::judge(const PreparedSweep& prepared, const Registration& r
   evidence.usual_score = view.map_may_end ? 0.0 : before.usual_score;
   evidence.was_lost = before.was_lost;
   evidence.unseen_share = unseen_share_;
-  evidence.shrunk = prepared.median_range_m < kShrunk * median_range_m_;
+  // A cover moves along with the sensor: a map of it shows no motion.
+  const bool moves_along = begun_covered_ && before.map_sweeps == 1 && before.stayed;
+  evidence.covered = moves_along || prepared.median_range_m < kShrunk * median_range_m_;
   evidence.cut_off = cut_off(registration.icp, prepared.median_range_m);
   evidence.possible_motion = motion != MotionVerdict::kImpossible;
   const LossCause cause = loss_cause(registration.icp, evidence, config_);
@@ -92,6 +94,17 @@ bool SweepJudge::give_up(bool established, double since_last, LossCause cause) {
   if (cause != LossCause::kCovered) ++tried_in_a_row_;
   const bool long_ago = since_last >= config_.restart_after && tried_in_a_row_ >= kTriesAfterGap;
   return !established || long_ago || lost_in_a_row_ >= config_.restart_after;
+}
+
+void SweepJudge::begin(const PreparedSweep& prepared, bool covered) {
+  const bool still = begun_covered_ && begun_in_a_row_ > 0 && kShrunk * prepared.median_range_m < median_range_m_;
+  begun_covered_ = covered || still;
+  median_range_m_ = prepared.median_range_m;
+  usual_eigenvalue_ = 0.0;
+  usual_residual_m_ = 0.0;
+  unseen_share_ = 0.0;
+  lost_in_a_row_ = tried_in_a_row_ = 0;
+  ++begun_in_a_row_;
 }
 
 void SweepJudge::accept(const PreparedSweep& prepared, const Registration& registration, bool degenerate) {

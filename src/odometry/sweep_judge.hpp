@@ -39,15 +39,8 @@ class SweepJudge {
 
   /// The sweep goes into the map.
   void accept(const PreparedSweep& prepared, const Registration& registration, bool degenerate);
-  /// The sweep begins a map.
-  void begin(const PreparedSweep& prepared) {
-    median_range_m_ = prepared.median_range_m;
-    usual_eigenvalue_ = 0.0;
-    usual_residual_m_ = 0.0;
-    unseen_share_ = 0.0;
-    lost_in_a_row_ = tried_in_a_row_ = 0;
-    ++begun_in_a_row_;
-  }
+  /// The sweep begins a map; `covered`: of what may cover the sensor.
+  void begin(const PreparedSweep& prepared, bool covered);
   /// Counts a lost sweep. True when the map has not fitted for too long, missing sweeps included: `since_last` periods
   /// after the last one that did. A map that is not `established` may itself be the wrong one and is given up at once.
   /// A covered sensor says nothing against the map.
@@ -75,6 +68,7 @@ class SweepJudge {
   double usual_residual_m_ = 0;  // of the sweeps in the map; 0: unknown
   double usual_eigenvalue_ = 0;  // least relative one of the sweeps in the map; 0: unknown
   double unseen_share_ = 0;      // of the sweeps in the map: degenerate ones
+  bool begun_covered_ = false;   // the map
   int lost_in_a_row_ = 0;
   int tried_in_a_row_ = 0;  // of them: those that were not covered
   int begun_in_a_row_ = 0;  // maps, without a second sweep

@@ -126,7 +126,7 @@ TEST(Judging, ImpossibleMotionAndACoveredSensorAreLost) {
   EXPECT_EQ(loss_cause(registered(), e, kHealth),
             LossCause::kImpossibleMotion);  // a claim that the next sweep may confirm
   e = evidence(0.8);
-  e.shrunk = true;
+  e.covered = true;
   EXPECT_EQ(judge(registered(), e, kHealth), OdometryStatus::kLost);
   EXPECT_EQ(loss_cause(registered(), e, kHealth), LossCause::kCovered);
 }
@@ -146,7 +146,7 @@ TEST(Judging, OfSeveralCausesTheFirstIsSaid) {
   EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kOutOfTime);
   icp.termination = IcpTermination::kSingular;
   EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kUnsolved);
-  e.shrunk = true;
+  e.covered = true;
   EXPECT_EQ(loss_cause(icp, e, kHealth), LossCause::kCovered);
 }
 

@@ -57,7 +57,7 @@ class AfterAGap : public ::testing::Test {
     found_.icp.residual_rms_m = 0.02;
     found_.score = 0.8;
     found_.quality = 30.0;
-    judge_.begin(place_);
+    judge_.begin(place_, false);
     judge_.accept(place_, found_, false);
   }
 
@@ -116,7 +116,7 @@ TEST_F(AfterAGap, WhatLeavesADirectionOpenMustFitAsUsualToo) {
 }
 
 TEST_F(AfterAGap, ANewMapHasNoUsualResiduals) {
-  judge_.begin(place_);
+  judge_.begin(place_, false);
   found_.icp.residual_rms_m = 0.1;
   EXPECT_EQ(status(), OdometryStatus::kOk);
 }

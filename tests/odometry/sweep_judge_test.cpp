@@ -41,7 +41,7 @@ TEST(SweepJudge, ARegistrationCutOffFarFromItsEndIsLost) {
 
 TEST(SweepJudge, APlaceOfLessThanAThirdOfTheLastIsACover) {
   SweepJudge judge(kJudgeConfig);
-  judge.begin(sweep_of(60.0));
+  judge.begin(sweep_of(60.0), false);
   judge.accept(sweep_of(30.0), fitting(), false);
   const auto at = [&](double range_m) {
     return judge.judge(sweep_of(range_m), fitting(), MotionVerdict::kPossible, {10, 0.8, 0.0, false});
@@ -57,7 +57,7 @@ TEST(SweepJudge, APlaceOfLessThanAThirdOfTheLastIsACover) {
 // Two neighbouring sweeps swapped: each fits the map a little worse, and what showed the way forward has no match.
 TEST(SweepJudge, ASweepThatSuddenlySeesADirectionMuchLessDoesNotBelongThere) {
   SweepJudge judge(kJudgeConfig);
-  judge.begin(sweep_of(10.0));
+  judge.begin(sweep_of(10.0), false);
   Registration usual = fitting();
   usual.quality = 20.0;
   usual.icp.degeneracy.relative_eigenvalues[0] = 0.05;
@@ -73,7 +73,7 @@ TEST(SweepJudge, ASweepThatSuddenlySeesADirectionMuchLessDoesNotBelongThere) {
   EXPECT_EQ(status(18.1, 0.012), OdometryStatus::kOk) << "a place may show a direction less, when it fits";
   EXPECT_EQ(status(17.0, 0.004), OdometryStatus::kDegenerate) << "a tunnel begins";
   EXPECT_EQ(status(17.0, 0.012, true), OdometryStatus::kRecovered) << "a place that has changed is taken as it is";
-  judge.begin(sweep_of(10.0));
+  judge.begin(sweep_of(10.0), false);
   EXPECT_EQ(status(17.0, 0.012), OdometryStatus::kOk) << "of a new map nothing is usual";
   Registration less = usual;
   less.icp.degeneracy.relative_eigenvalues[0] = 0.02;
@@ -86,7 +86,7 @@ TEST(SweepJudge, ASweepThatSuddenlySeesADirectionMuchLessDoesNotBelongThere) {
 // An open field: the drift along a direction that was not seen is in the map, and sweeps fit that, too.
 TEST(SweepJudge, WhereADirectionWasNotSeenForLongItMustBeSeenMoreClearly) {
   SweepJudge judge(kJudgeConfig);
-  judge.begin(sweep_of(10.0));
+  judge.begin(sweep_of(10.0), false);
   const auto status = [&](double ratio) {
     Registration registration = fitting();
     registration.icp.degeneracy.relative_eigenvalues[0] = ratio * kJudgeConfig.degenerate_ratio;
@@ -102,7 +102,7 @@ TEST(SweepJudge, WhereADirectionWasNotSeenForLongItMustBeSeenMoreClearly) {
   for (int i = 0; i < 14; ++i) judge.accept(sweep_of(10.0), fitting(), false);
   EXPECT_EQ(status(1.5), OdometryStatus::kOk) << "half of it is forgotten";
   judge.accept(sweep_of(10.0), fitting(), true);
-  judge.begin(sweep_of(10.0));
+  judge.begin(sweep_of(10.0), false);
   EXPECT_EQ(status(1.01), OdometryStatus::kOk) << "a new map";
 }
 
@@ -191,7 +191,7 @@ TEST(SweepJudge, AMotionThatIsImpossibleIsAJumpWhereTheSweepFitsAsUsual) {
 TEST(SweepJudge, AnEstablishedMapIsGivenUpAfterTenLossesInARow) {
   SweepJudge judge(kJudgeConfig);
   EXPECT_TRUE(judge.give_up(false, 1.0, LossCause::kLowScore)) << "a young map may be the wrong one";
-  judge.begin(sweep_of(10.0));
+  judge.begin(sweep_of(10.0), false);
   for (int round = 0; round < 2; ++round) {
     for (int lost = 1; lost < kJudgeConfig.restart_after; ++lost) {
       EXPECT_FALSE(judge.give_up(true, lost, LossCause::kLowScore)) << lost;
@@ -204,9 +204,29 @@ TEST(SweepJudge, AnEstablishedMapIsGivenUpAfterTenLossesInARow) {
   EXPECT_TRUE(judge.give_up(true, kJudgeConfig.restart_after, LossCause::kLowScore));
 }
 
+// A hand on the sensor for longer than a map is kept.
+TEST(SweepJudge, WhatCoversASensorMovesAlongWithIt) {
+  SweepJudge judge(kJudgeConfig);
+  judge.begin(sweep_of(1.0), true);
+  JudgedAgainst before{1, 0.0, 0.0, false, false, true};
+  const auto verdict = [&] { return judge.judge(sweep_of(1.0), fitting(), MotionVerdict::kPossible, before); };
+  EXPECT_EQ(verdict().status, OdometryStatus::kLost);
+  EXPECT_EQ(verdict().cause, LossCause::kCovered);
+  judge.begin(sweep_of(1.1), false);
+  EXPECT_EQ(verdict().cause, LossCause::kCovered) << "whatever the second sweep was lost for";
+  before.stayed = false;
+  EXPECT_EQ(verdict().status, OdometryStatus::kOk) << "a narrow place that the sensor moves through";
+  judge.accept(sweep_of(1.0), fitting(), false);
+  before = {2, 0.8, 0.0, false, false, true};
+  EXPECT_EQ(verdict().status, OdometryStatus::kOk) << "it may stop there";
+  before = {1, 0.0, 0.0, false, false, true};
+  judge.begin(sweep_of(1.0), false);
+  EXPECT_EQ(verdict().status, OdometryStatus::kOk) << "it may begin there, at rest";
+}
+
 TEST(SweepJudge, ASensorThatStaysCoveredIsSomewhereElse) {
   SweepJudge judge(kJudgeConfig);
-  judge.begin(sweep_of(10.0));
+  judge.begin(sweep_of(10.0), false);
   for (int lost = 1; lost < kJudgeConfig.restart_after; ++lost) {
     EXPECT_FALSE(judge.give_up(true, lost, LossCause::kCovered)) << lost;
   }
@@ -221,13 +241,13 @@ TEST(SweepJudge, AfterTenBeginningsInARowASecondSweepMayLeaveADirectionOpen) {
     return judge.judge(sweep_of(10.0), along_a_road, MotionVerdict::kPossible, {1, 0.8, 0.0, false}).status;
   };
   for (int i = 0; i < 10; ++i) {
-    judge.begin(sweep_of(10.0));
+    judge.begin(sweep_of(10.0), false);
     EXPECT_EQ(second(), OdometryStatus::kLost) << i;
   }
-  judge.begin(sweep_of(10.0));
+  judge.begin(sweep_of(10.0), false);
   EXPECT_EQ(second(), OdometryStatus::kDegenerate);
   judge.accept(sweep_of(10.0), fitting(), false);
-  judge.begin(sweep_of(10.0));
+  judge.begin(sweep_of(10.0), false);
   EXPECT_EQ(second(), OdometryStatus::kLost) << "no longer in a row";
 }
 

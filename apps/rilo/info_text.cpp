@@ -93,6 +93,65 @@ std::string compensation_text(const nlohmann::json& j) {
                                       : "not certain");
 }
 
+std::string range_text(const nlohmann::json& range) {
+  if (range.is_null()) return "";
+  return fmt::format("range         5 % {:.1f} m, median {:.1f} m, 95 % {:.1f} m, max {:.1f} m\n", real(range["p5"]),
+                     real(range["median"]), real(range["p95"]), real(range["max"]));
+}
+
+std::string directions_text(const nlohmann::json& directions) {
+  const auto one = count(directions["one_sweep_deg"]);
+  const auto all = count(directions["all_sweeps_deg"]);
+  const std::string text = fmt::format("directions    {}° in one sweep, {}° in all\n", one, all);
+  if (static_cast<double>(one) >= kPartOfRevolution * static_cast<double>(all)) return text;
+  return text +
+         fmt::format(
+             "warning       a sweep seems to hold part of a revolution, and neighbouring parts see different "
+             "surroundings: join them\n              (--parts {}; --rate then says how many parts a second come where "
+             "the data have no stamps)\n",
+             (all + one / 2) / std::max<std::size_t>(one, 1));
+}
+
+std::string stamps_text(const nlohmann::json& stamps, std::size_t sweeps) {
+  const bool assumed = stamps["assumed"].get<bool>();
+  std::string text = sweeps == 1 && !assumed
+                         ? "stamps        of one sweep"
+                         : fmt::format("stamps        every {:.4f} s ({:.2f} Hz){}", real(stamps["period_s"]),
+                                       1.0 / real(stamps["period_s"]), assumed ? " (assumed: the data has none)" : "");
+  if (stamps.contains("span_s")) {
+    text += fmt::format(", from {} s on for {:.1f} s", word(stamps["begin_s"]), real(stamps["span_s"]));
+  }
+  if (stamps.contains("gaps")) {
+    text +=
+        fmt::format(", {}, {} not increasing", counted(count(stamps["gaps"]), "gap"), count(stamps["not_increasing"]));
+  }
+  return text + "\n";
+}
+
+std::string times_text(const nlohmann::json& times) {
+  std::string text = "point times   " + word(times["source"]);
+  if (times.contains("begin_s")) {
+    text += fmt::format(", {:.4f} … {:.4f} s", real(times["begin_s"]), real(times["end_s"]));
+  }
+  return text + "\n";
+}
+
+std::string fields_text(const nlohmann::json& j) {
+  const int rings = j["rings"].get<int>();
+  std::string text = fmt::format("fields        intensity: {}; ring: {}", j["intensity"].get<bool>() ? "yes" : "no",
+                                 rings == 0 ? "no" : fmt::format("0 … {}", rings - 1));
+  if (!j["fields"].empty()) text += "; in the data: " + listed(j["fields"]);
+  if (!j["unused_fields"].empty()) text += "; not used: " + listed(j["unused_fields"]);
+  return text + "\n";
+}
+
+std::string truth_text(const nlohmann::json& truth) {
+  if (truth.is_null()) return "ground truth  none\n";
+  if (truth.contains("error")) return "ground truth  cannot be read: " + word(truth["error"]) + "\n";
+  return fmt::format("ground truth  {} ({}, {})\n", word(truth["file"]), counted(count(truth["poses"]), "pose"),
+                     word(truth["instant"]));
+}
+
 }  // namespace
 
 std::string info_text(const nlohmann::json& j, const std::string& options) {
@@ -101,57 +160,11 @@ std::string info_text(const nlohmann::json& j, const std::string& options) {
   if (!word(j["topic"]).empty()) {
     text += fmt::format("topic         {}, frame {}\n", word(j["topic"]), word(j["frame_id"]));
   }
-  text += points_text(j);
-  if (!j["range_m"].is_null()) {
-    const auto& range = j["range_m"];
-    text += fmt::format("range         5 % {:.1f} m, median {:.1f} m, 95 % {:.1f} m, max {:.1f} m\n", real(range["p5"]),
-                        real(range["median"]), real(range["p95"]), real(range["max"]));
-  }
-  const auto& directions = j["directions"];
-  const auto one = count(directions["one_sweep_deg"]);
-  const auto all = count(directions["all_sweeps_deg"]);
-  text += fmt::format("directions    {}° in one sweep, {}° in all\n", one, all);
-  if (static_cast<double>(one) < kPartOfRevolution * static_cast<double>(all)) {
-    text += fmt::format(
-        "warning       a sweep seems to hold part of a revolution, and neighbouring parts see different surroundings: "
-        "join them\n              (--parts {}; --rate then says how many parts a second come where the data have no "
-        "stamps)\n",
-        (all + one / 2) / std::max<std::size_t>(one, 1));
-  }
-  const auto& stamps = j["stamps"];
-  const bool assumed = stamps["assumed"].get<bool>();
-  text += count(j["sweeps"]) == 1 && !assumed
-              ? "stamps        of one sweep"
-              : fmt::format("stamps        every {:.4f} s ({:.2f} Hz){}", real(stamps["period_s"]),
-                            1.0 / real(stamps["period_s"]), assumed ? " (assumed: the data has none)" : "");
-  if (stamps.contains("span_s")) {
-    text += fmt::format(", from {} s on for {:.1f} s", word(stamps["begin_s"]), real(stamps["span_s"]));
-  }
-  if (stamps.contains("gaps")) {
-    text +=
-        fmt::format(", {}, {} not increasing", counted(count(stamps["gaps"]), "gap"), count(stamps["not_increasing"]));
-  }
-  text += "\npoint times   " + word(j["point_times"]["source"]);
-  if (j["point_times"].contains("begin_s")) {
-    text += fmt::format(", {:.4f} … {:.4f} s", real(j["point_times"]["begin_s"]), real(j["point_times"]["end_s"]));
-  }
-  text += '\n' + compensation_text(j);
-  const int rings = j["rings"].get<int>();
-  text += fmt::format("fields        intensity: {}; ring: {}", j["intensity"].get<bool>() ? "yes" : "no",
-                      rings == 0 ? "no" : fmt::format("0 … {}", rings - 1));
-  if (!j["fields"].empty()) text += "; in the data: " + listed(j["fields"]);
-  if (!j["unused_fields"].empty()) text += "; not used: " + listed(j["unused_fields"]);
-  text += '\n';
+  text += points_text(j) + range_text(j["range_m"]) + directions_text(j["directions"]) +
+          stamps_text(j["stamps"], count(j["sweeps"])) + times_text(j["point_times"]) + compensation_text(j) +
+          fields_text(j);
   text += fmt::format("camera        {}\n", j["calibration"].get<bool>() ? "LiDAR to camera (Tr)" : "none");
-  const auto& truth = j["truth"];
-  if (truth.is_null()) {
-    text += "ground truth  none\n";
-  } else if (truth.contains("error")) {
-    text += "ground truth  cannot be read: " + word(truth["error"]) + "\n";
-  } else {
-    text += fmt::format("ground truth  {} ({}, {})\n", word(truth["file"]), counted(count(truth["poses"]), "pose"),
-                        word(truth["instant"]));
-  }
+  text += truth_text(j["truth"]);
   for (const auto& warning : j["warnings"]) text += "warning       " + word(warning) + "\n";
   return text + advice(j, options);
 }

@@ -19,10 +19,10 @@ namespace rilo {
 
 /// When the points of a voxel count as a plane, and their noise.
 struct PlaneCriteria {
-  int min_points = 6;
-  int max_points = 100;
-  double max_planarity = 0.1;
-  double min_extent_m = 0.05;
+  int min_points = 0;
+  int max_points = 0;  ///< a voxel with a plane takes no more
+  double max_planarity = 0.0;
+  double min_extent_m = 0.0;
   double range_noise_m = 0.0;    ///< standard deviation of a point along its ray
   double angle_noise_rad = 0.0;  ///< standard deviation of its direction
   bool keep_scatter = true;      ///< points that are no plane count as a Gaussian

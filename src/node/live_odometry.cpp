@@ -24,11 +24,9 @@ namespace rilo {
 namespace {
 
 std::shared_ptr<LiveQueue> queue_for(const NodeOptions& options, const std::string& topic) {
-  LiveQueueOptions queue;
-  queue.topic = topic;
-  queue.limit = static_cast<std::size_t>(options.queue);
-  queue.look_ahead = static_cast<std::size_t>(options.look_ahead);
-  return std::make_shared<LiveQueue>(queue);
+  return std::make_shared<LiveQueue>(LiveQueueOptions{.topic = topic,
+                                                      .limit = static_cast<std::size_t>(options.queue),
+                                                      .look_ahead = static_cast<std::size_t>(options.look_ahead)});
 }
 
 }  // namespace

@@ -102,14 +102,15 @@ std::string range_text(const nlohmann::json& range) {
 std::string directions_text(const nlohmann::json& directions) {
   const auto one = count(directions["one_sweep_deg"]);
   const auto all = count(directions["all_sweeps_deg"]);
-  const std::string text = fmt::format("directions    {}° in one sweep, {}° in all\n", one, all);
-  if (static_cast<double>(one) >= kPartOfRevolution * static_cast<double>(all)) return text;
-  return text +
-         fmt::format(
-             "warning       a sweep seems to hold part of a revolution, and neighbouring parts see different "
-             "surroundings: join them\n              (--parts {}; --rate then says how many parts a second come where "
-             "the data have no stamps)\n",
-             (all + one / 2) / std::max<std::size_t>(one, 1));
+  std::string text = fmt::format("directions    {}° in one sweep, {}° in all\n", one, all);
+  if (static_cast<double>(one) < kPartOfRevolution * static_cast<double>(all)) {
+    text += fmt::format(
+        "warning       a sweep seems to hold part of a revolution, and neighbouring parts see different surroundings: "
+        "join them\n              (--parts {}; --rate then says how many parts a second come where the data have no "
+        "stamps)\n",
+        (all + one / 2) / std::max<std::size_t>(one, 1));
+  }
+  return text;
 }
 
 std::string stamps_text(const nlohmann::json& stamps, std::size_t sweeps) {

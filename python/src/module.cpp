@@ -12,7 +12,7 @@ py::handle io_error;
 py::handle config_error;
 
 // Names of files in a text may be no UTF-8.
-void set_error(const py::handle& type, const char* what) {
+void raise_as(const py::handle& type, const char* what) {
   PyErr_SetObject(type.ptr(), rilo::python::python_text(what).ptr());
 }
 
@@ -20,9 +20,9 @@ void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(std::move(thrown));
   } catch (const rilo::ConfigError& error) {
-    set_error(config_error, error.what());
+    raise_as(config_error, error.what());
   } catch (const rilo::IoError& error) {
-    set_error(io_error, error.what());
+    raise_as(io_error, error.what());
   }
 }
 

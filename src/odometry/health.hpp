@@ -14,7 +14,7 @@ struct Evidence {
   double usual_score = 0;       ///< of the sweeps before; 0: unknown
   bool was_lost = false;        ///< the sweep before was lost
   std::size_t map_sweeps = 0;   ///< in the map: while they are few, it may itself be wrong
-  bool covered = false;         ///< the place is much smaller than one sweep before, and may move along
+  bool covered = false;         ///< the place is much smaller than one sweep before, or one that moves along
   bool cut_off = false;         ///< the registration ran out of time far from its end
   bool possible_motion = true;  ///< a sensor can have moved to the pose
   /// It fits worse than sweeps that belong there do, or elsewhere as well; kNone: it does not.

@@ -151,8 +151,9 @@ class FileSource final : public ScanSource {
     info.point_times = timing_.description();
     if (timing_.sets_stamps()) info.stamps_assumed = false;
     if (info.stamps_assumed && info.kind != "file") {
-      const bool shown = timing_.shown_period() && !options_.rate_hz;
-      const std::string why = shown ? fmt::format(", since a sweep lasts {:.3g} s", info.period_s) : "";
+      const auto& shown = timing_.shown_period();
+      const bool lasts = shown && !shown->by_stamps && !options_.rate_hz;
+      const std::string why = lasts ? fmt::format(", since a sweep lasts {:.3g} s", info.period_s) : "";
       info.warnings.insert(
           info.warnings.begin(),
           fmt::format("no timestamps found; assuming {:.3g} Hz{} (change with --rate)", 1 / info.period_s, why));

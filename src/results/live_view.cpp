@@ -30,6 +30,7 @@ std::unique_ptr<Viewer> announced_viewer(const ViewInfo& info, const ViewOptions
 constexpr double kNearM = 30.0;  // of a point of the map
 constexpr double kPoseStepM = 2.0;
 constexpr double kCellM = 5.0;
+constexpr float kFarthestM = 1e9F;
 
 using Place = std::pair<Eigen::Vector3f, std::uint32_t>;  // of the sensor, and its sweep
 
@@ -129,6 +130,10 @@ std::vector<std::uint32_t> first_seen(const std::vector<Eigen::Vector3f>& points
   std::vector<std::uint32_t> seen;
   seen.reserve(points.size());
   for (const Eigen::Vector3f& point : points) {
+    if (!(point.squaredNorm() < kFarthestM * kFarthestM)) {  // of a damaged file: it has no cell
+      seen.push_back(first_near(point, places));
+      continue;
+    }
     const auto [cell, is_new] = by_cell.try_emplace(voxel_key(voxel_of(point, 1.0 / kCellM)));
     if (is_new) cell->second = first_near(point, places);
     seen.push_back(cell->second);

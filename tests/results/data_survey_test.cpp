@@ -2,6 +2,7 @@
 #include "results/data_survey.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -132,6 +133,8 @@ TEST(FirstSeen, FromTheFirstSweepNearByOrTheNearest) {
   EXPECT_THAT(first_seen({{2, 0, 0}, {29, 0, 0}, {31, 0, 0}, {76, 0, 0}, {100, 0, 0}, {500, 0, 0}}, results),
               ElementsAre(0, 0, 2, 2, 3, 3));
   EXPECT_THAT(first_seen({{1, 1, 1}}, {}), ElementsAre(0));
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(first_seen({{nan, 0, 0}, {1e12F, 0, 0}, {3, 0, 0}}, results), ElementsAre(0, 0, 0));
 }
 
 }  // namespace

@@ -31,6 +31,18 @@ std::vector<BenchSequence> sequences_of(const BenchFlags& flags) {
   return sequences;
 }
 
+// A missing one alone fails as a cell, but a wrong --root is an error of the whole.
+void check_some_are_there(const BenchFlags& flags, const BenchPlan& plan) {
+  std::string missing;
+  for (const BenchSequence& sequence : plan.sequences) {
+    if (detail::path_exists(sequence.path)) return;
+    missing += (missing.empty() ? "" : ", ") + sequence.path.string();
+  }
+  throw RunError(RunErrorKind::kBadData,
+                 flags.plan + ": none of its sequences is there: " + missing +
+                     (flags.data.empty() ? "; name the folder that they lie in with --root" : "; see --data"));
+}
+
 void leave_out_missing(const BenchFlags& flags, BenchPlan& plan) {
   std::string missing;
   std::vector<BenchSequence> there;
@@ -40,10 +52,6 @@ void leave_out_missing(const BenchFlags& flags, BenchPlan& plan) {
     } else {
       missing += (missing.empty() ? "" : ", ") + sequence.path.string();
     }
-  }
-  if (there.empty()) {
-    throw RunError(RunErrorKind::kBadData, flags.plan + ": none of its sequences is there: " + missing +
-                                               "; name the folder that they lie in with --root");
   }
   if (!missing.empty() && !flags.order.run.quiet) std::cerr << "skipped, as they do not exist: " << missing << '\n';
   plan.sequences = std::move(there);
@@ -128,6 +136,7 @@ std::vector<BenchJob> plan_jobs(BenchFlags& flags) {
     throw RunError(RunErrorKind::kUsage,
                    flags.plan + ": no sequences: in it; expected them there or folders after --data");
   }
+  check_some_are_there(flags, plan);
   if (plan.skip_missing && flags.data.empty()) leave_out_missing(flags, plan);
   add_peers(flags, plan);
   take_peer_figures(flags, plan);

@@ -92,6 +92,7 @@ void send_sweeps(LiveView& view, const RunRecord& run, ScanSource* source, const
                                  [](const SweepResult& result) { return result.stats.points_in > 0; });
   std::size_t done = 0;
   try {
+    if (source != nullptr && !run.indices.empty()) source->skip(run.indices.front());
     while (source != nullptr && done < run.results.size() && InterruptGuard::signal() == 0) {
       std::optional<Sweep> sweep = source->next();
       if (!sweep) break;

@@ -7,6 +7,7 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch_ros.actions import ComposableNodeContainer, LoadComposableNodes, Node
 from launch_ros.descriptions import ComposableNode
+from launch_ros.parameter_descriptions import ParameterValue
 
 SHARE = Path(get_package_share_directory("rilo_ros2"))
 CONTAINER_OF_ITS_OWN = "own"
@@ -59,6 +60,9 @@ def full_name(topic, namespace):
 
 def node_parameters(given, namespace):
     values = {name: taken(given, name, kind) for name, (kind, _) in PARAMETERS.items() if given[name] != ""}
+    # A plain text would be read as YAML: a frame "1" as a number.
+    values = {name: ParameterValue(value, value_type=str) if isinstance(value, str) else value
+              for name, value in values.items()}
     if taken(given, "reliable", flag):
         topic = full_name(given["points"], namespace)
         values[f"qos_overrides.{topic}.subscription.reliability"] = "reliable"

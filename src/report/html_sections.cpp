@@ -35,12 +35,24 @@ std::string summary_line(const RunReport& run) {
   return escaped(text);
 }
 
+/// A sentence where a tenth of the sweeps or more is lost.
+std::string loss_notice(const RunReport& run) {
+  constexpr std::size_t kOneOf = 10;
+  const auto lost =
+      static_cast<std::size_t>(std::count_if(run.sweeps.begin(), run.sweeps.end(), [](const SweepResult& sweep) {
+        return sweep.status == OdometryStatus::kLost;
+      }));
+  if (lost == 0 || kOneOf * lost < run.sweeps.size()) return "";
+  return fmt::format("<p class=\"notice\">{} of {} sweeps are lost: the path is not to be trusted there.</p>\n", lost,
+                     run.sweeps.size());
+}
+
 std::string header(const RunReport& run) {
   std::string html = fmt::format("<header><h2>{}</h2>\n", title_of(run));
   if (!run.dataset.empty()) html += fmt::format("<p class=\"dataset\">{}</p>\n", escaped(run.dataset));
   html += fmt::format("<p class=\"summary\">{}</p>\n", summary_line(run));
   if (!run.notice.empty()) html += fmt::format("<p class=\"notice\">{}</p>\n", escaped(run.notice));
-  return html + "</header>\n";
+  return html + loss_notice(run) + "</header>\n";
 }
 
 std::string error_row(const char* name, const char* unit, const ErrorSummary& s, int digits) {

@@ -77,6 +77,16 @@ TEST(BenchCommand, ABrokenCellIsListedAndTheOthersRun) {
   EXPECT_THAT(slurp(folder / "out" / "results.md"), HasSubstr("000004.bin"));
 }
 
+TEST(BenchCommand, AWrongRootIsOneErrorAndNoCells) {
+  const TempDir folder;
+  const auto plan = folder.write(
+      "plan.yaml", std::string("sequences:\n") + sequence("a", "a") + sequence("b", "b") + kConfigurations);
+  const Outcome bench = rilo_fails(3, {"bench", plan, "--root", folder / "nowhere", "--out", folder / "out"},
+                                   {"none of its sequences is there", "nowhere/a", "--root"});
+  EXPECT_THAT(bench.out, Not(HasSubstr("failed")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 TEST(BenchCommand, PeakMemoryIsOfEachCellAlone) {
   const TempDir folder;
   const auto plan =

@@ -86,6 +86,14 @@ TEST(HtmlReport, WithoutARegistrationThereAreNoInliers) {
   EXPECT_TRUE(inliers[1].is_number());
 }
 
+TEST(HtmlReport, ManyLostSweepsAreSaidBelowTheTitle) {
+  RunReport run = drive(40);
+  for (std::size_t i = 0; i < 3; ++i) run.sweeps[i].status = OdometryStatus::kLost;
+  EXPECT_THAT(page(run), Not(HasSubstr("sweeps are lost")));
+  run.sweeps[3].status = OdometryStatus::kLost;
+  EXPECT_THAT(page(run), HasSubstr("4 of 40 sweeps are lost"));
+}
+
 TEST(HtmlReport, EscapesEveryText) {
   RunReport run = drive(5);
   const std::string evil = "</script><script>alert('1')</script> & \"<u>\" <!-- \x01";

@@ -34,7 +34,9 @@ Trajectory read_euroc(const std::filesystem::path& file);
 /// @throws IoError when the file cannot be read or the line is malformed.
 std::optional<SE3> read_kitti_calibration(const std::filesystem::path& file);
 
-/// One stamp a line, in seconds, read exactly to the nanosecond (KITTI's times.txt).
+/// One stamp a line: seconds, read exactly to the nanosecond (KITTI's times.txt), whole ns (19 digits), µs (16) or ms
+/// (13), or a date (2011-09-26 13:02:25.951199337, UTC). Blank lines and lines that begin with # are skipped.
+/// @throws IoError with the line.
 std::vector<std::int64_t> read_stamps(const std::filesystem::path& file);
 
 /// T_lidar = Tr^-1 · T_cam · Tr for every pose.

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <system_error>
 #include <vector>
 
@@ -90,8 +89,8 @@ double column_information(std::string_view bytes, const std::vector<bool>& measu
   return information;
 }
 
-// Nothing where the numbers are too few or too similar to tell.
-std::optional<std::size_t> columns_of_numbers(const std::filesystem::path& file) {
+// Records of which lengths the numbers look like, shortest first. Empty where they are too few or too similar to tell.
+std::vector<std::size_t> columns_of_numbers(const std::filesystem::path& file) {
   constexpr std::size_t kLookedAt = std::size_t{1} << 24;
   constexpr std::ptrdiff_t kFewestNumbers = 4000;
   constexpr double kFewestBits = 0.03;  // ten times what chance makes of so few; sweeps have 0.08 to 1.7
@@ -99,7 +98,7 @@ std::optional<std::size_t> columns_of_numbers(const std::filesystem::path& file)
   constexpr double kAsMuch = 0.8;
   const FileBytes bytes = read_file(file, kLookedAt);
   const std::vector<bool> measured = measured_numbers(bytes.view());
-  if (std::count(measured.begin(), measured.end(), true) < kFewestNumbers) return std::nullopt;
+  if (std::count(measured.begin(), measured.end(), true) < kFewestNumbers) return {};
   std::error_code error;
   const auto size = static_cast<std::size_t>(std::filesystem::file_size(file, error));
   std::array<double, kMostColumns + 1> information{};
@@ -107,28 +106,43 @@ std::optional<std::size_t> columns_of_numbers(const std::filesystem::path& file)
     if (!error && fits(size, n)) information[n] = column_information(bytes.view(), measured, n);
   }
   const double most = *std::max_element(information.begin(), information.end());
-  if (most < kFewestBits) return std::nullopt;
-  const auto enough = [&](double bits) { return bits >= kAsMuch * most; };
-  return static_cast<std::size_t>(std::find_if(information.begin(), information.end(), enough) - information.begin());
+  if (most < kFewestBits) return {};
+  std::vector<std::size_t> likely;
+  for (std::size_t n = kFewestColumns; n <= kMostColumns; ++n) {
+    if (information[n] >= kAsMuch * most) likely.push_back(n);
+  }
+  return likely;
+}
+
+// As columns_of_numbers(); a file that cannot be read is reported when it is reached.
+std::vector<std::size_t> likely_columns(const std::filesystem::path& file) {
+  try {
+    return columns_of_numbers(file);
+  } catch (const IoError&) {
+    return {};
+  }
+}
+
+// "x,y,z,intensity,_,time": columns of that many, for an example.
+std::string example_of(std::size_t columns) {
+  if (columns <= 4) return columns == 4 ? kDefault : "x,y,z";
+  std::string fields = kDefault;
+  for (std::size_t n = 5; n < columns; ++n) fields += n == 5 ? ",ring" : ",_";
+  return fields + ",time";
 }
 
 // The default fits the sizes; what do the numbers say?
 std::string checked_default(const std::filesystem::path& file) {
-  std::optional<std::size_t> columns;
-  try {
-    columns = columns_of_numbers(file);
-  } catch (const IoError&) {
-    return kDefault;  // reported when it is reached
-  }
-  if (!columns || *columns == 4) return kDefault;
-  if (*columns == 5 && has_rings_behind(file)) return kWithRing;
+  const std::vector<std::size_t> likely = likely_columns(file);
+  if (likely.empty() || likely.front() == 4) return kDefault;
+  if (likely.front() == 5 && has_rings_behind(file)) return kWithRing;
   const auto size = static_cast<std::size_t>(std::filesystem::file_size(file));
   throw IoError({file, "",
                  counted(size, "byte") + ", which fit records of " + fitting_columns(size) +
-                     " columns; the numbers look like records of " + std::to_string(*columns),
+                     " columns; the numbers look like records of " + std::to_string(likely.front()),
                  std::string("records of 4 columns, ") + kDefault,
-                 std::string("Say with bin_fields (--bin-fields) which columns it has, for example ") + kWithRing +
-                     ",time, or " + kDefault + " when it is right"});
+                 "Say with bin_fields (--bin-fields) which columns it has, for example " + example_of(likely.front()) +
+                     ", or " + kDefault + " when it is right; convert it if its numbers are of 8 bytes"});
 }
 
 }  // namespace
@@ -139,6 +153,15 @@ std::string fitting_columns(std::size_t bytes) {
     if (fits(bytes, n)) fitting += (fitting.empty() ? "" : ", ") + std::to_string(n);
   }
   return fitting;
+}
+
+std::string doubt_about_columns(const std::filesystem::path& file, std::size_t columns) {
+  if (columns > kMostColumns) return "";
+  const std::vector<std::size_t> likely = likely_columns(file);
+  if (likely.empty() || std::find(likely.begin(), likely.end(), columns) != likely.end()) return "";
+  return "the numbers look like records of " + std::to_string(likely.front()) + " columns, not " +
+         std::to_string(columns) + ": does bin_fields (--bin-fields) name all of them, for example " +
+         example_of(likely.front()) + "?";
 }
 
 std::string guess_bin_fields(const std::vector<std::filesystem::path>& files) {

@@ -45,7 +45,7 @@ std::vector<Field> parse_bin_fields(const std::string& text) {
 
 namespace {
 
-std::string likely_columns(std::size_t bytes) {
+std::string size_hint(std::size_t bytes) {
   const std::string fitting = fitting_columns(bytes);
   return fitting.empty() ? "" : " (the size would fit records of " + fitting + " columns)";
 }
@@ -58,7 +58,7 @@ void check_size(const FileBytes& bytes, const std::string& fields, std::size_t c
                  counted(bytes.size, "byte") + ", which is " + counted(bytes.size / record, "record") + " and " +
                      counted(rest, "byte"),
                  "records of " + counted(record, "byte") + " (" + fields + ", float32 each)",
-                 "The file is cut off, or bin_fields (--bin-fields) does not fit it" + likely_columns(bytes.size)});
+                 "The file is cut off, or bin_fields (--bin-fields) does not fit it" + size_hint(bytes.size)});
 }
 
 // A wrong column count or another number format shows in absurd coordinates. Infinite ones are no returns, as NaN.

@@ -36,6 +36,9 @@ std::vector<Field> parse_bin_fields(const std::string& text);
 /// @throws IoError when the sizes fit x,y,z,intensity, but the numbers are those of records of another length.
 std::string guess_bin_fields(const std::vector<std::filesystem::path>& files);
 
+/// A sentence where the numbers of the file are those of records of another length than `columns`, else empty.
+std::string doubt_about_columns(const std::filesystem::path& file, std::size_t columns);
+
 /// "3, 5": how many columns of float32 the records of a file of that size may have.
 std::string fitting_columns(std::size_t bytes);
 

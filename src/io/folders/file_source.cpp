@@ -109,6 +109,7 @@ class FileSource final : public ScanSource {
       : listing_(std::move(listing)),
         options_(with_bin_fields(listing_, options)),
         timing_(options, hints_of(listing_, options), listing_.info.period_s, listing_.info.stamps_assumed) {
+    if (options.bin_fields != "auto") doubt_bin_fields();
     const auto promised = promised_times(listing_, options_);
     if (!timing_.reads_times()) return;
     const FirstTimes first = promised ? first_times() : FirstTimes{};
@@ -168,6 +169,14 @@ class FileSource final : public ScanSource {
     if (listing_.info.format == "bin") return read_bin(file, options_.bin_fields);
     if (listing_.info.format == "pcd") return read_pcd(file, options_.time_field);
     return read_ply(file, options_.time_field);
+  }
+
+  // A wrong number of columns may fit the sizes by chance.
+  void doubt_bin_fields() {
+    if (listing_.info.format != "bin" || listing_.files.empty()) return;
+    const std::filesystem::path& middle = listing_.files[listing_.files.size() / 2];
+    const std::string doubt = doubt_about_columns(middle, parse_bin_fields(options_.bin_fields).size());
+    if (!doubt.empty()) listing_.info.warnings.push_back(middle.string() + ": " + doubt);
   }
 
   // Of the first three sweeps with times that differ: the steps between these say whether they count from an epoch.

@@ -1,6 +1,9 @@
 #include "io/folders/scan_listing.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "io/file_bytes.hpp"
@@ -27,7 +30,7 @@ std::vector<std::int64_t> stamps_for_all(const fs::path& file, const ScanListing
 std::vector<std::int64_t> stamps_that_fit(const fs::path& file, ScanListing& listing) {
   std::string why;
   try {
-    std::vector<std::int64_t> stamps = read_stamp_list(file);
+    std::vector<std::int64_t> stamps = read_stamps(file);
     if (stamps.size() == listing.files.size()) return stamps;
     why = counted(stamps.size(), "stamp") + " for " + counted(listing.files.size(), "sweep");
   } catch (const IoError& error) {
@@ -35,6 +38,14 @@ std::vector<std::int64_t> stamps_that_fit(const fs::path& file, ScanListing& lis
   }
   listing.info.warnings.push_back("stamps not taken from " + file.string() + ": " + why);
   return {};
+}
+
+std::string what_to_do_with(const fs::path& file) {
+  constexpr std::array<std::string_view, 8> kArchives{".zip", ".gz", ".tgz", ".tar", ".bz2", ".xz", ".zst", ".7z"};
+  const std::string extension = lower_case(file.extension().string());
+  if (std::find(kArchives.begin(), kArchives.end(), extension) != kArchives.end()) return "Unpack it first";
+  if (extension == ".active") return "The recording was not closed: rosbag reindex, then name it .bag";
+  return kOtherFormats;
 }
 
 }  // namespace
@@ -97,7 +108,8 @@ ScanListing list_single_file(const fs::path& file, const SourceOptions& options)
   const std::string format = sweep_format(file);
   if (format.empty()) {
     throw IoError({file, "", "a file with the extension " + in_quotes(file.extension().string()),
-                   "a sweep (.bin, .pcd, .ply) or a recording (.bag, .mcap, .db3, .pcap, .pcapng)", kOtherFormats});
+                   "a sweep (.bin, .pcd, .ply) or a recording (.bag, .mcap, .db3, .pcap, .pcapng)",
+                   what_to_do_with(file)});
   }
   ScanListing listing = listing_of("file", file, {format, {file}});
   set_stamps(listing, stamps_from_names(listing.files), options);

@@ -84,20 +84,15 @@ std::vector<std::int64_t> read_dates(const std::filesystem::path& file) {
   return read_lines(file, parse_date, "a date as 2011-09-26 13:02:25.951199337", "Unpack the drive again");
 }
 
-std::vector<std::int64_t> read_stamp_list(const std::filesystem::path& file) {
-  const auto parse = [](std::string_view text) {
-    if (const auto date = parse_date(text)) return date;
-    if (const auto stamp = parse_long_stamp(text)) return stamp;
-    return parse_stamp(text);
-  };
-  return read_lines(file, parse, "a date, seconds, or 19 digits of ns", "Correct the file, or move it away");
-}
-
 }  // namespace detail
 
 std::vector<std::int64_t> read_stamps(const std::filesystem::path& file) {
-  return detail::read_lines(file, parse_stamp, "one number, seconds that fit into 64 bits of ns",
-                            "Give one stamp a line, in seconds");
+  const auto parse = [](std::string_view text) {
+    if (const auto date = detail::parse_date(text)) return date;
+    if (const auto stamp = detail::parse_long_stamp(text)) return stamp;
+    return parse_stamp(text);
+  };
+  return detail::read_lines(file, parse, "a date, seconds, or 19 digits of ns", "Correct the file, or move it away");
 }
 
 }  // namespace rilo

@@ -17,8 +17,4 @@ std::optional<std::int64_t> parse_long_stamp(std::string_view text);
 /// Dates. Blank lines are skipped. @throws IoError with the line.
 std::vector<std::int64_t> read_dates(const std::filesystem::path& file);
 
-/// Dates, long stamps or seconds. Blank lines and lines that begin with # are skipped. @throws IoError with the
-/// line.
-std::vector<std::int64_t> read_stamp_list(const std::filesystem::path& file);
-
 }  // namespace rilo::detail

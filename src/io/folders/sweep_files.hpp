@@ -19,8 +19,8 @@ struct SweepFiles {
 SweepFiles find_sweep_files(const std::filesystem::path& folder, bool look_below = true);
 
 inline constexpr const char* kOtherFormats =
-    "Sweeps in other formats: convert them to .pcd or .ply (CloudCompare, PDAL, Open3D), or register their points from "
-    "Python";
+    "Sweeps in other formats: convert them to .pcd or .ply (CloudCompare, PDAL; the times of the points as a "
+    "field \"time\"), or register their points from Python";
 
 /// bin, pcd or ply by the extension, whatever its case; empty for other files.
 std::string sweep_format(const std::filesystem::path& file);

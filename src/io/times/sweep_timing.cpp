@@ -1,6 +1,10 @@
 #include "io/times/sweep_timing.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
 
 #include "io/stamp_difference.hpp"
 #include "io/times/sweep_period.hpp"
@@ -8,6 +12,22 @@
 #include "rilo/io/io_error.hpp"
 
 namespace rilo::detail {
+namespace {
+
+// Seconds since 1970 are the usual mistake: float32 has steps of 128 s there.
+std::string warning_of_constant(const RawTimes& raw) {
+  constexpr float kCoarse = 0.01F;
+  std::string warning = "field " + raw.field + " is the same for all points of a sweep: taken as points without times";
+  if (raw.type != ScalarType::kFloat32) return warning;
+  const auto value = static_cast<float>(raw.floats.front());
+  const float step = std::nextafter(value, std::numeric_limits<float>::infinity()) - value;
+  if (!(step > kCoarse)) return warning;
+  return warning +
+         fmt::format(". float32 has steps of {:.3g} at {:.6g}: write float64, or times since the sweep's stamp", step,
+                     value);
+}
+
+}  // namespace
 
 std::string azimuth_description(SpinDirection direction, double period_s) {
   return "azimuth, " + std::string(to_string(direction)) + ", period " + std::to_string(period_s) + " s";
@@ -43,7 +63,7 @@ void SweepTiming::promise(const std::optional<std::string>& times, const std::ve
   constant_ = !stamps_in_field_ && !ends.empty() && std::all_of(ends.begin(), ends.end(), tells_nothing);
   has_times_ = times.has_value() && !constant_;
   description_ = has_times_ ? *times : "none";
-  if (constant_) constant_field_ = ends.front().field;
+  if (constant_) constant_warning_ = warning_of_constant(ends.front());
 }
 
 // As the sweeps will be decoded. The first sweep may lack times, and what stamps the others shows only then.
@@ -127,10 +147,7 @@ void SweepTiming::stamp(const std::optional<RawTimes>& times, const std::filesys
 std::vector<std::string> SweepTiming::warnings() const {
   std::vector<std::string> warnings;
   if (for_stamps_) return warnings;
-  if (!constant_field_.empty()) {
-    warnings.push_back("field " + constant_field_ +
-                       " is the same for all points of a sweep: taken as points without times");
-  }
+  if (!constant_warning_.empty()) warnings.push_back(constant_warning_);
   const auto& convention = decoder_.convention();
   const bool of_a_turn = from_ == PointTimes::kAzimuth || (convention && convention->unit == PointTimeUnit::kFraction);
   if (of_a_turn) note_left_out(period_s_, turn_s(period_s_), warnings);

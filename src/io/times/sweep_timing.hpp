@@ -64,8 +64,8 @@ class SweepTiming {
   PointTimeDecoder decoder_;
   PointClock clock_;
   std::optional<ShownPeriod> shown_period_;
-  bool constant_ = false;  // the field, in all sweeps so far
-  std::string constant_field_;
+  bool constant_ = false;         // the field, in all sweeps so far
+  std::string constant_warning_;  // empty unless the first sweeps have such a field
   bool has_times_ = false;
   std::string description_ = "none";
 };

@@ -106,7 +106,7 @@ const track = (svg, move, leave) => {
 // Axes with a grid. Returns scales and the opening of the SVG.
 const axes = (host, o) => {
   const width = host.clientWidth, height = o.height;
-  const m = { left: 50, right: 12, top: 8, bottom: o.xlabel ? 36 : 20 };
+  const m = { left: 50, right: 12, top: o.ylabel ? 22 : 8, bottom: o.xlabel ? 36 : 20 };
   let [x0, x1] = o.xrange, [y0, y1] = o.yrange;
   if (x1 - x0 < 1e-9) { const pad = Math.abs(x0) * 0.2 || 0.5; x0 -= pad; x1 += pad; }
   if (y1 - y0 < 1e-9) { const pad = Math.abs(y0) * 0.1 || 0.5; y0 = o.zero && y0 === 0 ? 0 : y0 - pad; y1 += pad; }
@@ -123,7 +123,7 @@ const axes = (host, o) => {
   }
   svg += `<line class="axis" x1="${m.left}" x2="${width - m.right}" y1="${m.top + h}" y2="${m.top + h}"/>`;
   if (o.xlabel) svg += `<text x="${px(m.left + w / 2)}" y="${height - 4}" text-anchor="middle">${esc(o.xlabel)}</text>`;
-  if (o.ylabel) svg += `<text class="halo" x="${m.left + 5}" y="${m.top + 11}">${esc(o.ylabel)}</text>`;
+  if (o.ylabel) svg += `<text x="${m.left}" y="12">${esc(o.ylabel)}</text>`;
   return { svg, sx, sy, w, h, m, width, height, x0, x1, y0, y1 };
 };
 const mount = (host, head, svg, width, height, night) => {

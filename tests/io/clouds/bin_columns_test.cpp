@@ -68,9 +68,24 @@ TEST(BinColumnsTest, OtherNumbersThanFourAreRefused) {
       SourceOptions options;
       options.bin_fields = "x,y,z";
       for (std::size_t i = 3; i < kept.size(); ++i) options.bin_fields += ",_";
-      EXPECT_EQ(sweeps_of(*open_scan_source(file, options)).at(0).points.size(), kRecords);
+      const auto source = open_scan_source(file, options);
+      EXPECT_EQ(sweeps_of(*source).at(0).points.size(), kRecords);
+      EXPECT_TRUE(source->info().warnings.empty());
     }
   }
+}
+
+TEST(BinColumnsTest, NamedColumnsThatTheNumbersDoNotLookLikeAreDoubted) {
+  const TempDir folder;
+  const auto file = folder.write("a.bin", records_of(sweep(), "xyzirt"));
+  SourceOptions options;
+  options.bin_fields = "x,y,z,intensity";
+  const auto warnings = open_scan_source(file, options)->info().warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("look like records of 6 columns, not 4"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("x,y,z,intensity,ring,time"), std::string::npos) << warnings[0];
+  options.bin_fields = "x,y,z";  // half of a record of six
+  EXPECT_EQ(open_scan_source(file, options)->info().warnings.size(), 1U);
 }
 
 TEST(BinColumnsTest, FourAreTaken) {

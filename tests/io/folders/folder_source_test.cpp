@@ -101,7 +101,9 @@ TEST(FolderSourceTest, SingleFile) {
   EXPECT_EQ(source->size(), 1U);
   EXPECT_EQ(marks_of(*source), std::vector<float>{4});
   expect_io_error([&] { open_scan_source(folder.write("a.csv", "")); },
-                  {"a.csv", "'.csv'", "a sweep (.bin, .pcd, .ply) or a recording"});
+                  {"a.csv", "'.csv'", "a sweep (.bin, .pcd, .ply) or a recording", "field \"time\""});
+  expect_io_error([&] { open_scan_source(folder.write("a.bag.gz", "")); }, {"a.bag.gz", "Unpack it"});
+  expect_io_error([&] { open_scan_source(folder.write("a.bag.active", "")); }, {"a.bag.active", "rosbag reindex"});
   expect_io_error([&] { open_scan_source(folder / "none"); }, {"none", "no such file or folder"});
   expect_io_error([&] { open_scan_source("/dev/null"); }, {"neither a folder nor a file"});
 }

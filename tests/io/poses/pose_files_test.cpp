@@ -257,7 +257,11 @@ TEST(PoseFileTest, Stamps) {
   write_stamps(folder / "times.txt", {0, 103'600'000, 1'317'042'145'964'000'001});
   EXPECT_EQ(read_stamps(folder / "times.txt"), (std::vector<std::int64_t>{0, 103'600'000, 1'317'042'145'964'000'001}));
   expect_io_error([&] { read_stamps(folder.write("t.txt", "0.0\n0.1\nsoon\n")); }, {"t.txt", "line 3", "'soon'"});
-  expect_io_error([&] { read_stamps(folder.write("t.txt", "0.0 0.1\n")); }, {"line 1", "one number"});
+  expect_io_error([&] { read_stamps(folder.write("t.txt", "0.0 0.1\n")); }, {"line 1", "expected a date, seconds"});
+  EXPECT_EQ(read_stamps(folder.write("t.txt", "# ns\n1317042145964000001\n\n1317042146064000001\n")),
+            (std::vector<std::int64_t>{1'317'042'145'964'000'001, 1'317'042'146'064'000'001}));
+  EXPECT_EQ(read_stamps(folder.write("t.txt", "2011-09-26 13:02:25.951199337\n")),
+            (std::vector<std::int64_t>{1'317'042'145'951'199'337}));
 }
 
 }  // namespace

@@ -91,6 +91,15 @@ TEST(WrongTimesOfDrivesTest, TheSameForAllPointsIsNone) {
   }
 }
 
+TEST(WrongTimesOfDrivesTest, SecondsSince1970InFloat32AreCalledCoarse) {
+  const auto sweeps = drive(4, [](std::size_t, float) { return 1.6e9F; });
+  for (const auto& open : {recording, files}) {
+    const TempDir folder;
+    const SourceInfo info = open(folder, sweeps, {})->info();
+    EXPECT_TRUE(has_warning(info, "float32 has steps of 128 at 1.6e+09")) << info.warnings.size();
+  }
+}
+
 TEST(WrongTimesOfDrivesTest, TheSameForAllPointsInAToldUnit) {
   SourceOptions options;
   options.point_time_unit = Unit::kSeconds;

@@ -13,6 +13,7 @@ constexpr int kHeightLevels = 50;
 constexpr int kDensityLevels = 5;
 constexpr double kMaxPixels = 1500.0;  // longer side
 constexpr double kMinMetresPerPixel = 0.05;
+constexpr double kLeastAroundM = 20.0;  // shown around the trajectory
 constexpr double kGroundCellM = 5.0;
 constexpr double kSteepestSlope = 0.3;
 constexpr std::size_t kWitnesses = 3;  // neighbours that a median needs
@@ -52,7 +53,8 @@ float quantile(std::vector<float>& values, double q) {
   return *nth;
 }
 
-/// Area of the trajectory and of all but the farthest points: a few stray returns must not shrink the picture.
+/// Area of the trajectory and of all but the farthest points: a few stray returns must not shrink the picture, nor what
+/// is seen through the windows of a room.
 Box area_of(const std::vector<Eigen::Vector3f>& points, const std::vector<SE3>& poses) {
   std::vector<float> x;
   std::vector<float> y;
@@ -62,7 +64,14 @@ Box area_of(const std::vector<Eigen::Vector3f>& points, const std::vector<SE3>& 
   }
   Box box;
   for (const double q : {0.004, 0.996}) box.include({quantile(x, q), quantile(y, q)});
-  for (const SE3& T : poses) box.include(T.translation().head<2>());
+  if (!poses.empty()) {
+    Box path;
+    for (const SE3& T : poses) path.include(T.translation().head<2>());
+    const Eigen::Vector2d around =
+        Eigen::Vector2d::Constant(std::max(kLeastAroundM, (path.high - path.low).maxCoeff()));
+    box.low = box.low.cwiseMax(path.low - around).cwiseMin(path.low);
+    box.high = box.high.cwiseMin(path.high + around).cwiseMax(path.high);
+  }
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(2.0);
   box.low -= margin;
   box.high += margin;

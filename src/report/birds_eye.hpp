@@ -24,7 +24,7 @@ inline constexpr double kMapColourHighM = 6.0;
 const std::vector<Rgba>& map_colours();
 
 /// Draws `points`, coloured by height above the local ground, brighter where they are denser; the picture covers the
-/// trajectory and nearly all points. Empty when no point is finite.
+/// trajectory and nearly all points no farther from it than it is long, or 20 m. Empty when no point is finite.
 std::optional<BirdsEyeMap> draw_birds_eye(const std::vector<Eigen::Vector3f>& points, const std::vector<SE3>& poses);
 
 }  // namespace rilo

@@ -119,6 +119,15 @@ TEST(BirdsEye, StrayPointsDoNotShrinkThePicture) {
   EXPECT_LE(map->image.width, 1501);
 }
 
+TEST(BirdsEye, WhatIsSeenThroughAWindowDoesNotShrinkTheRoom) {
+  std::vector<Eigen::Vector3f> points = yard(0.0F);
+  const std::vector<Eigen::Vector3f> outside = yard(0.0F);
+  for (const Eigen::Vector3f& p : outside) points.emplace_back(p + Eigen::Vector3f(300.0F, 0.0F, 0.0F));
+  const std::optional<BirdsEyeMap> map = draw_birds_eye(points, {SE3::Identity()});
+  ASSERT_TRUE(map.has_value());
+  EXPECT_NEAR(map->min_x_m + map->image.width * map->metres_per_pixel, 22.0, 0.2);  // 20 m and the margin
+}
+
 TEST(BirdsEye, NothingToDraw) {
   EXPECT_FALSE(draw_birds_eye({}, {}).has_value());
   EXPECT_FALSE(draw_birds_eye({Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN())}, {}).has_value());
@@ -126,7 +135,7 @@ TEST(BirdsEye, NothingToDraw) {
 }
 
 TEST(BirdsEye, AFewPointsBelowTheGroundDoNotRaiseWhatIsAround) {
-  const std::vector<SE3> poses(1, SE3::Identity());
+  const std::vector<SE3> poses{SE3(Eigen::Translation3d(30.0, 30.0, 0.0))};
   std::vector<Eigen::Vector3f> points = sparse_field();
   const auto clean = draw_birds_eye(points, poses);
   for (int i = 0; i < 6; ++i) points.emplace_back(31.0F, 32.0F, -15.0F);  // a mirrored wall

@@ -113,7 +113,7 @@ void add_show_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags)
                     "omit the columns of time and memory: the rest is the same on every machine");
 }
 
-int run_jobs(const BenchFlags& flags, std::vector<BenchJob> jobs) {
+void check_order(const BenchFlags& flags) {
   const BenchOrder& order = flags.order;
   if (order.out.empty() && (order.on_slurm || flags.cell)) {
     throw RunError(RunErrorKind::kUsage,
@@ -122,7 +122,10 @@ int run_jobs(const BenchFlags& flags, std::vector<BenchJob> jobs) {
   if (!order.on_slurm && !order.sbatch.empty()) {
     throw RunError(RunErrorKind::kUsage, "bench: --sbatch goes with --on slurm");
   }
-  return flags.cell ? run_bench_cell(order, jobs, *flags.cell) : run_bench(order, std::move(jobs));
+}
+
+int run_jobs(const BenchFlags& flags, std::vector<BenchJob> jobs) {
+  return flags.cell ? run_bench_cell(flags.order, jobs, *flags.cell) : run_bench(flags.order, std::move(jobs));
 }
 
 int bench_command(const CLI::App& command, BenchFlags& flags) {
@@ -137,11 +140,13 @@ int bench_command(const CLI::App& command, BenchFlags& flags) {
       show_bench(flags.root, {flags.format, flags.paired, !flags.no_times});
       return kSuccess;
     }
+    check_order(flags);
     return run_jobs(flags, paper_jobs(flags, name == "kitti" ? PaperTables::kKitti : PaperTables::kM2dgr));
   }
   if (flags.plan.empty())
     throw RunError(RunErrorKind::kUsage,
                    "bench: FILE is required: it names the configurations, also with --data. See: rilo bench --help");
+  check_order(flags);
   return run_jobs(flags, plan_jobs(flags));
 }
 

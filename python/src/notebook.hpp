@@ -1,6 +1,7 @@
 // What a notebook shows of our objects.
 #pragma once
 
+#include <clocale>
 #include <cstdio>
 #include <pybind11/pybind11.h>
 #include <string>
@@ -11,9 +12,27 @@
 
 namespace rilo::python {
 
+/// Numbers of this thread with a decimal point, whatever the process has set, while it lives.
+class PointLocale {
+ public:
+  PointLocale() : before_(uselocale(point())) {}
+  ~PointLocale() { uselocale(before_); }
+  PointLocale(const PointLocale&) = delete;
+  PointLocale& operator=(const PointLocale&) = delete;
+
+ private:
+  static locale_t point() {
+    static const locale_t kPoint = newlocale(LC_NUMERIC_MASK, "C", duplocale(LC_GLOBAL_LOCALE));
+    return kPoint;
+  }
+
+  locale_t before_;
+};
+
 /// One printf of a few numbers.
 template <typename... Values>
 std::string text_of(const char* format, Values... values) {
+  const PointLocale locale;
   std::string text(static_cast<std::size_t>(std::snprintf(nullptr, 0, format, values...)) + 1, '\0');
   text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), format, values...)));
   return text;

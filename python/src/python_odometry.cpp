@@ -7,6 +7,7 @@
 
 #include "arrays.hpp"
 #include "notebook.hpp"
+#include "rilo/io/io_error.hpp"
 #include "rilo/io/point_times.hpp"
 #include "settings.hpp"
 
@@ -111,7 +112,12 @@ SweepResult PythonOdometry::register_frame(const py::object& points, const py::o
   Sweep sweep;  // the decoder marks points without a time, so it has its own
   sweep.points.assign(taken.values.begin(), taken.values.end());
   sweep.stamp_ns = view.stamp_ns;
-  frame_times_.decode(*raw, *parsed, stamp, sweep);
+  try {
+    frame_times_.decode(*raw, *parsed, stamp, sweep);
+  } catch (const IoError& error) {  // of a file elsewhere: here it is the caller's array
+    throw py::value_error("timestamps: " + error.problem().found + "; expected " + error.problem().expected +
+                          ". Give point_time_unit, or none to go without them");
+  }
   if (stamp) sweep.stamp_ns = *stamp;
   return registered(sweep);
 }

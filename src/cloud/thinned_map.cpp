@@ -1,5 +1,8 @@
 #include "rilo/cloud/thinned_map.hpp"
 
+#include <stdexcept>
+#include <string>
+
 #include "cloud/map_normals.hpp"
 #include "geometry/voxel_key.hpp"
 
@@ -7,16 +10,40 @@ namespace rilo {
 
 namespace {
 constexpr double kNormalRadiusVoxels = 3.0;  // on a surface some 28 points
+constexpr unsigned int kBlockBits = 4;       // 16 voxels along each edge
+
+unsigned int within_block(int index) { return static_cast<unsigned int>(index) & ((1U << kBlockBits) - 1U); }
+}  // namespace
+
+ThinnedMap::ThinnedMap(double voxel_m) : voxel_m_(voxel_m) {
+  if (!(voxel_m >= kLeastVoxelM && voxel_m <= kMostVoxelM)) {
+    throw std::invalid_argument("voxel_m is " + std::to_string(voxel_m) + "; it must be from " +
+                                std::to_string(kLeastVoxelM) + " to " + std::to_string(kMostVoxelM));
+  }
+}
+
+/// False where its voxel has a point already.
+bool ThinnedMap::take(const Eigen::Vector3d& point) {
+  const VoxelIndex voxel = voxel_of(point, 1.0 / voxel_m_);
+  Block& block = taken_[voxel_key({voxel.x >> kBlockBits, voxel.y >> kBlockBits, voxel.z >> kBlockBits})];
+  const std::size_t bit =
+      within_block(voxel.x) | within_block(voxel.y) << kBlockBits | within_block(voxel.z) << 2 * kBlockBits;
+  const bool is_new = !block.test(bit);
+  block.set(bit);
+  return is_new;
 }
 
 void ThinnedMap::add(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar,
                      const std::vector<float>& intensities) {
-  const double inverse = 1.0 / voxel_m_;
+  if (!intensities.empty() && intensities.size() != points.size()) {
+    throw std::invalid_argument("intensities: " + std::to_string(intensities.size()) + " values for " +
+                                std::to_string(points.size()) + " points");
+  }
   const auto sweep = static_cast<std::uint32_t>(places_.size());
   places_.push_back(T_odom_lidar.translation().cast<float>());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d world = T_odom_lidar * points[i].cast<double>();
-    if (!taken_.insert(voxel_key(voxel_of(world, inverse))).second) {
+    if (!take(world)) {
       continue;
     }
     // A column of all points or none: later ones have no place behind a sweep without intensities.
@@ -29,9 +56,9 @@ void ThinnedMap::add(const std::vector<Eigen::Vector3f>& points, const SE3& T_od
 }
 
 MapCloud ThinnedMap::cloud(bool with_normals) const {
-  MapCloud cloud{points_, {}, {}};
+  MapCloud cloud{points(), {}, {}};
   if (intensities_.size() == points_.size()) {
-    cloud.intensities = intensities_;
+    cloud.intensities.assign(intensities_.begin(), intensities_.end());
   }
   if (with_normals) {
     std::vector<Eigen::Vector3f> seen_from;
@@ -39,7 +66,7 @@ MapCloud ThinnedMap::cloud(bool with_normals) const {
     for (const std::uint32_t sweep : sweeps_) {
       seen_from.push_back(places_[sweep]);
     }
-    cloud.normals = map_normals(points_, seen_from, kNormalRadiusVoxels * voxel_m_);
+    cloud.normals = map_normals(cloud.points, seen_from, kNormalRadiusVoxels * voxel_m_);
   }
   return cloud;
 }

@@ -11,10 +11,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <nanoflann.hpp>
-#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "cloud/fixed_chunks.hpp"
+#include "cloud/more_workers.hpp"
 #include "cloud/voxel_sampler.hpp"
 #include "evaluation/percentile.hpp"
 
@@ -136,12 +136,6 @@ Place look_at(const WindowMap& map, const Tree& tree, const Eigen::Vector3d& cen
   return place;
 }
 
-// More than the machine has, if configured.
-std::size_t workers_for(int threads) {
-  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  return std::max(allowed, static_cast<std::size_t>(threads));
-}
-
 }  // namespace
 
 // Evenly filled, the disc has a standard deviation of half its radius along each axis.
@@ -217,7 +211,7 @@ void MapQualityMeter::measure(std::size_t first) {
   if (reference.points.empty()) return;
   const Tree tree(3, map, nanoflann::KDTreeSingleIndexAdaptorParams(32));
   std::vector<Place> places(std::min(reference.points.size(), config_.samples_per_window));
-  const tbb::global_control workers(tbb::global_control::max_allowed_parallelism, workers_for(config_.threads));
+  const MoreWorkers workers(config_.threads);
   tbb::task_arena arena(config_.threads > 0 ? config_.threads : tbb::task_arena::automatic);
   arena.execute([&] {
     for_each_index(places.size(), [&](std::size_t i) { places[i] = look_at(map, tree, map.points[i], config_); });

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "io/steady_clock.hpp"
 #include "io/text.hpp"
 #include "node/base_frame.hpp"
 #include "node/node_health.hpp"
@@ -56,6 +57,7 @@ class LiveOdometry::Impl {
 
   void reset() {
     const std::lock_guard lock(mutex_);
+    session_.open_anew();  // the driver may have been started again, with another frame or other times
     reset_held();
   }
 
@@ -118,6 +120,10 @@ class LiveOdometry::Impl {
   bool step() {
     try {
       if (!session_.next_sweep()) return false;
+      if (session_.times_opened() != times_opened_) {
+        times_opened_ = session_.times_opened();
+        base_frame_.reset();
+      }
       for (const std::string& warning : session_.new_warnings()) output_.warn(warning);
       tell_drops();
       const SourceFigures figures = session_.figures();
@@ -177,16 +183,37 @@ class LiveOdometry::Impl {
   }
 
   void process(std::size_t clock_jumps) {
+    const std::int64_t begin_ns = steady_ns();
     const std::lock_guard lock(mutex_);
-    if (clock_jumps > jumps_seen_) {
-      jumps_seen_ = clock_jumps;
-      output_.warn("the stamps went back in time (a bag played again, a clock that was set): the odometry restarts");
-      reset_held();
+    jumped_ = jumped_ || clock_jumps > jumps_seen_;
+    jumps_seen_ = clock_jumps;
+    SweepResult result = session_.register_sweep();
+    if (jumped_ && result.status != OdometryStatus::kEmpty) {
+      jumped_ = false;
+      result = after_jump(result);
     }
-    const SweepResult result = session_.register_sweep();
     last_stamp_ns_ = result.stamp_ns;
-    health.note_sweep(result);
+    tell_losses(health.note_sweep(result));
     publish(result, session_.last_step_s());
+    session_.add_to_map(result.status);
+    health.note_end(static_cast<double>(steady_ns() - begin_ns) * 1e-6, session_.map_points(), session_.map_is_full());
+  }
+
+  // A wrong stamp, or a clock that was set, does not move the sensor. A bag that is played again does.
+  SweepResult after_jump(const SweepResult& result) {
+    constexpr const char* kBack = "the stamps went back in time";
+    if (result.status != OdometryStatus::kLost) {
+      output_.warn(std::string(kBack) + ", but the sweep fits: the odometry goes on");
+      return result;
+    }
+    output_.warn(std::string(kBack) + ", and the sweep does not fit (a bag played again?): the odometry restarts");
+    reset_held();
+    return session_.register_sweep();
+  }
+
+  void tell_losses(const NodeHealth::News& news) {
+    if (!news.lost.empty() && losses_.due()) output_.warn(news.lost);
+    if (!news.new_map.empty() && new_maps_.due()) output_.warn(news.new_map);
   }
 
   // With the session held, as all that follows.
@@ -230,9 +257,13 @@ class LiveOdometry::Impl {
 
   // Of the thread.
   std::optional<std::string> base_frame_;  // once the transform is known
+  std::size_t times_opened_ = 0;
   std::size_t jumps_seen_ = 0;
+  bool jumped_ = false;  // and no sweep with points came since
   Throttle bad_message_;
   Throttle drops_;
+  Throttle losses_;
+  Throttle new_maps_;
   std::size_t dropped_told_ = 0;
   std::atomic<bool> stopping_{false};
   std::mutex ending_;
@@ -281,7 +312,10 @@ LiveOdometry::SavedMap LiveOdometry::save_map(const std::string& file) const {
       return {false, file + ": not written, there are no points yet since the start or the last reset", 0};
     }
     write_map(file, map);
-    return {true, "written: " + std::filesystem::absolute(file).string(), map.points.size()};
+    const std::size_t further = impl_->health.new_maps();
+    const std::string guesses =
+        further == 0 ? "" : fmt::format(" ({} maps, connected by guesses since the sensor was lost)", further + 1);
+    return {true, "written: " + std::filesystem::absolute(file).string() + guesses, map.points.size()};
   } catch (const std::exception& error) {
     return {false, error.what(), 0};
   }

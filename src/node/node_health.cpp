@@ -25,6 +25,12 @@ NodeLevel level_of(OdometryStatus status) {
   }
 }
 
+std::string sentence_of(const SweepResult& result) {
+  const std::string status(to_string(result.status));
+  const LossCause cause = result.stats.loss_cause;
+  return cause == LossCause::kNone ? status : fmt::format("{} ({})", status, to_string(cause));
+}
+
 // The worst counts; all that is wrong is listed.
 void merge(NodeLevel level, const std::string& message, StatusMessage& status) {
   const bool was_well = status.level == NodeLevel::kOk;
@@ -39,14 +45,36 @@ void NodeHealth::note_waiting(const std::string& what) {
   waiting_for_ = what;
 }
 
-void NodeHealth::note_sweep(const SweepResult& result) {
+NodeHealth::News NodeHealth::note_sweep(const SweepResult& result) {
   const std::lock_guard lock(mutex_);
+  News news;
+  if (result.status == OdometryStatus::kLost && (!last_ || last_->status != OdometryStatus::kLost)) {
+    news.lost = sentence_of(result);
+  }
+  if (result.status == OdometryStatus::kInitialising && maps_++ > 0) {
+    ++fresh_maps_;
+    news.new_map = "a new map begins: the poses before and after are connected by a guess";
+  }
   last_ = result;
+  if (!worst_ || level_of(result.status) > level_of(worst_->status)) worst_ = result;
   ++by_status_.at(static_cast<std::size_t>(result.status));
   ++sweeps_;
   last_ms_ = result.stats.times.total_ms;
   sum_ms_ += last_ms_;
   most_ms_ = std::max(most_ms_, last_ms_);
+  return news;
+}
+
+void NodeHealth::note_end(double ms, std::size_t map_points, bool map_is_full) {
+  const std::lock_guard lock(mutex_);
+  most_busy_ms_ = std::max(most_busy_ms_, ms);
+  map_points_ = map_points;
+  map_is_full_ = map_is_full;
+}
+
+std::size_t NodeHealth::new_maps() const {
+  const std::lock_guard lock(mutex_);
+  return maps_ > 0 ? maps_ - 1 : 0;
 }
 
 void NodeHealth::note_bad_message(const std::string& why) {
@@ -64,6 +92,8 @@ void NodeHealth::note_reset() {
   const std::lock_guard lock(mutex_);
   ++resets_;
   last_.reset();
+  worst_.reset();
+  maps_ = fresh_maps_ = 0;
 }
 
 void NodeHealth::note_source(const SourceFigures& info) {
@@ -83,16 +113,30 @@ StatusMessage NodeHealth::report(const LiveQueueCounts& queue) {
   reported_bad_messages_ = bad_messages_;
   reported_sweeps_ = sweeps_;
   reported_lost_ = lost_;
+  worst_.reset();
+  fresh_maps_ = 0;
+  most_ms_ = most_busy_ms_ = 0;
   return status;
+}
+
+void NodeHealth::judge_sweeps(StatusMessage& status) const {
+  status.level = level_of(last_->status);
+  status.message = sentence_of(*last_);
+  if (worst_ && level_of(worst_->status) > status.level) {
+    merge(level_of(worst_->status), sentence_of(*worst_) + " since the last report", status);
+  }
+  if (fresh_maps_ > 0) {
+    merge(NodeLevel::kError,
+          fmt::format("{} began: the poses before and after are connected by a guess",
+                      detail::counted(fresh_maps_, "new map")),
+          status);
+  }
+  if (map_is_full_) merge(NodeLevel::kWarn, "the map for save_map has map_points points: it takes no more", status);
 }
 
 void NodeHealth::judge(const LiveQueueCounts& queue, StatusMessage& status) const {
   if (last_) {
-    status.level = level_of(last_->status);
-    status.message = to_string(last_->status);
-    if (last_->stats.loss_cause != LossCause::kNone) {
-      status.message += fmt::format(" ({})", to_string(last_->stats.loss_cause));
-    }
+    judge_sweeps(status);
   } else if (sweeps_ > 0) {
     status.message = "reset, no sweep since";
   } else {
@@ -133,6 +177,8 @@ void NodeHealth::add_counts(const LiveQueueCounts& queue, StatusMessage& status)
   add("messages that cannot be read", bad_messages_);
   add("last that cannot be read", last_bad_message_);
   add("resets", resets_);
+  add("new maps", maps_ > 0 ? maps_ - 1 : 0);
+  add("points of the map for save_map", map_points_);
   for (std::size_t i = 0; i < kStatusCount; ++i) {
     add("status " + std::string(to_string(static_cast<OdometryStatus>(i))), by_status_.at(i));
   }
@@ -140,6 +186,7 @@ void NodeHealth::add_counts(const LiveQueueCounts& queue, StatusMessage& status)
   add_rounded("ms of the last sweep", last_ms_);
   add_rounded("ms mean", sweeps_ > 0 ? sum_ms_ / static_cast<double>(sweeps_) : 0);
   add_rounded("ms largest", most_ms_);
+  add_rounded("ms largest with publishing", most_busy_ms_);
   add("gaps of the stamps", source_.gaps);
   add("sweeps missing in the gaps", source_.missing);
   add("duplicates dropped", source_.duplicates);

@@ -82,6 +82,8 @@ void add_numbers(KeyVisitor& keys, NodeOptions& o) {
                o.look_ahead, 0, 12);
   keys.real({"map_voxel", "m", "voxel of the map that save_map writes; 0: none is kept"}, o.map_voxel_m, 0,
             ThinnedMap::kMostVoxelM);
+  keys.integer({"map_points", "", "points that this map has at most, some 20 bytes each; 0: no limit"}, o.map_points, 0,
+               1'000'000'000);
 }
 
 void add_live_numbers(KeyVisitor& keys, NodeOptions& o) {

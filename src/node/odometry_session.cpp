@@ -24,8 +24,10 @@ OdometrySession::OdometrySession(const NodeOptions& options, std::shared_ptr<Liv
       queue_(std::move(queue)),
       odometry_(new_odometry(options.config)),
       map_voxel_m_(options.map_voxel_m),
-      map_(options.map_voxel_m),
-      T_base_lidar_(extrinsic_of(options)) {}
+      most_map_points_(static_cast<std::size_t>(options.map_points)),
+      T_base_lidar_(extrinsic_of(options)) {
+  if (map_voxel_m_ > 0) map_.emplace(map_voxel_m_);
+}
 
 Odometry OdometrySession::new_odometry(const OdometryConfig& config) const {
   Odometry odometry(config, steady_ns);
@@ -39,16 +41,32 @@ std::vector<Eigen::Vector3f> OdometrySession::in_odom_frame(std::vector<Eigen::V
 }
 
 bool OdometrySession::next_sweep() {
-  if (!source_) source_ = open_live_source(queue_, source_options_);
-  sweep_ = source_->next();
+  bool anew = queue_->take_end_of_source();
+  do {
+    if (anew && source_) {
+      figures_before_ = figures();
+      source_.reset();
+      given_.clear();
+      ++times_opened_;
+    }
+    if (!source_) source_ = open_live_source(queue_, source_options_);
+    sweep_ = source_->next();
+    anew = !sweep_ && queue_->take_end_of_source();
+  } while (anew);
   return sweep_.has_value();
 }
 
 SourceFigures OdometrySession::figures() const {
   const SourceInfo info = source_->info();
   const StampFaults& faults = info.faults;
-  return {faults.gaps,        faults.missing,   faults.duplicates, faults.out_of_order,
-          faults.clock_jumps, info.point_times, info.frame_id};
+  const SourceFigures& before = figures_before_;
+  return {before.gaps + faults.gaps,
+          before.missing + faults.missing,
+          before.duplicates + faults.duplicates,
+          before.out_of_order + faults.out_of_order,
+          before.clock_jumps + faults.clock_jumps,
+          info.point_times,
+          info.frame_id};
 }
 
 std::vector<std::string> OdometrySession::new_warnings() {
@@ -73,10 +91,13 @@ void OdometrySession::set_extrinsic(const SE3& T_base_lidar) { T_base_lidar_ = T
 SweepResult OdometrySession::register_sweep() {
   SweepResult result = odometry_.register_sweep(*sweep_);
   result.stamp_ns = pose_stamp_ns(result.stamp_ns, sweep_->stamp_ns);
-  if (map_voxel_m_ > 0 && belongs_in_map(result.status, !sweep_->times_s.empty())) {
-    map_.add(odometry_.last_map_points(), result.T_odom_lidar);
-  }
+  path_.add({result.stamp_ns, result.T_odom_lidar});
   return of_base(result, T_base_lidar_, T_world_odom_);
+}
+
+void OdometrySession::add_to_map(OdometryStatus status) {
+  if (!map_ || map_is_full() || !belongs_in_map(status, !sweep_->times_s.empty())) return;
+  map_->add(odometry_.last_map_points(), odometry_.trajectory().back().T_odom_lidar);
 }
 
 double OdometrySession::last_step_s() const {
@@ -91,7 +112,8 @@ void OdometrySession::reset(const std::optional<OdometryConfig>& config) {
   } else {
     odometry_.reset();
   }
-  map_ = ThinnedMap(map_voxel_m_);
+  path_ = PathPoses();
+  if (map_) map_.emplace(map_voxel_m_);
   T_world_odom_ = SE3::Identity();
 }
 
@@ -103,7 +125,7 @@ void OdometrySession::set_pose(const SE3& T_odom_base) {
 }
 
 Trajectory OdometrySession::path() const {
-  Trajectory path = odometry_.trajectory();
+  Trajectory path = path_.poses();
   for (StampedPose& pose : path) pose.T_odom_lidar = base_pose(pose.T_odom_lidar, T_base_lidar_, T_world_odom_);
   return path;
 }
@@ -111,7 +133,7 @@ Trajectory OdometrySession::path() const {
 std::vector<Eigen::Vector3f> OdometrySession::local_map() const { return in_odom_frame(odometry_.local_map()); }
 
 std::vector<Eigen::Vector3f> OdometrySession::map() const {
-  return map_.points().empty() ? local_map() : in_odom_frame(map_.points());
+  return map_points() == 0 ? local_map() : in_odom_frame(map_->points());
 }
 
 }  // namespace rilo

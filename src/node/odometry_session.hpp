@@ -1,6 +1,7 @@
 // The odometry on the sweeps of a queue, in the frames that the robot uses.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "node/node_health.hpp"
+#include "node/path_poses.hpp"
 #include "rilo/cloud/thinned_map.hpp"
 #include "rilo/geometry/trajectory.hpp"
 #include "rilo/io/live_queue.hpp"
@@ -27,7 +29,12 @@ class OdometrySession {
   OdometrySession(const NodeOptions& options, std::shared_ptr<LiveQueue> queue);
 
   /// Waits for the next sweep and keeps it. False when the queue was closed. @throws IoError when it cannot be read.
+  /// After open_anew() what the messages look like is found out again.
   bool next_sweep();
+  /// Any thread.
+  void open_anew() { queue_->end_source(); }
+  /// How often that was done.
+  std::size_t times_opened() const { return times_opened_; }
   SourceFigures figures() const;
   /// Sentences about the sweep kept and those before, each once.
   std::vector<std::string> new_warnings();
@@ -37,6 +44,8 @@ class OdometrySession {
 
   /// Registers the sweep kept.
   SweepResult register_sweep();
+  /// Takes its points into the map of the whole run, where they belong in one.
+  void add_to_map(OdometryStatus status);
 
   /// Time between the last two poses, s; 0 without two.
   double last_step_s() const;
@@ -47,11 +56,15 @@ class OdometrySession {
   /// The base was there at the last sweep (before the first: is there at the first).
   void set_pose(const SE3& T_odom_base);
 
+  /// Thinned where it is long (PathPoses).
   Trajectory path() const;
   std::vector<Eigen::Vector3f> local_map() const;
 
   /// Of the whole run since the last reset; the local one where none is kept.
   std::vector<Eigen::Vector3f> map() const;
+  std::size_t map_points() const { return map_ ? map_->size() : 0; }
+  /// It has as many points as it may have.
+  bool map_is_full() const { return map_ && most_map_points_ > 0 && map_->size() >= most_map_points_; }
 
  private:
   // New, with what is known about the sensor.
@@ -62,12 +75,16 @@ class OdometrySession {
   std::optional<SensorAngles> calibration_;
   std::shared_ptr<LiveQueue> queue_;
   std::unique_ptr<ScanSource> source_;
+  std::size_t times_opened_ = 0;
+  SourceFigures figures_before_;    // of the sources opened before
   std::vector<std::string> given_;  // warnings
   bool untimed_ = false;            // some points were
   std::optional<Sweep> sweep_;
   Odometry odometry_;
+  PathPoses path_;
   double map_voxel_m_;
-  ThinnedMap map_;
+  std::size_t most_map_points_;
+  std::optional<ThinnedMap> map_;
   SE3 T_base_lidar_;
   SE3 T_world_odom_ = SE3::Identity();  // what set_pose() said
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "cloud/thinning.hpp"
@@ -17,16 +18,24 @@ constexpr double kCoarseShare = 0.5;  // of the time left; the rest is for what 
 constexpr double kGapPeriods = 3.5;   // over two missing sweeps the prediction still leads to the basin
 constexpr double kLeastCoarse = 0.3;  // of its points; with fewer it finds nothing
 
-std::size_t workers(const OdometryConfig& config) {
-  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  return std::max(allowed, static_cast<std::size_t>(std::max(config.threads, 0)));
+void check_column(const char* name, std::size_t values, std::size_t points) {
+  if (values == 0 || values == points) return;
+  throw std::invalid_argument(std::string(name) + ": " + std::to_string(values) + " values for " +
+                              std::to_string(points) + " points; expected none, or one for each");
+}
+
+/// A column that is dropped because one value is missing costs the motion compensation.
+void check_columns(const SweepView& sweep) {
+  check_column("times_s", sweep.times_s.size(), sweep.points.size());
+  check_column("intensities", sweep.intensities.size(), sweep.points.size());
+  check_column("rings", sweep.rings.size(), sweep.points.size());
 }
 }  // namespace
 
 Pipeline::Pipeline(const OdometryConfig& config, Odometry::Clock clock)
     : config_(validated(config)),
       clock_(std::move(clock)),
-      workers_(tbb::global_control::max_allowed_parallelism, workers(config)),
+      workers_(config.threads),
       arena_(config.threads > 0 ? config.threads : tbb::task_arena::automatic),
       budget_(config.budget, config.preprocess.source_points),
       preprocessor_(config.preprocess),
@@ -43,6 +52,7 @@ Pipeline::Pipeline(const OdometryConfig& config, Odometry::Clock clock)
 }
 
 SweepResult Pipeline::register_sweep(const SweepView& sweep) {
+  check_columns(sweep);
   SweepResult result;
   arena_.execute([&] { process(sweep, result); });
   return result;

@@ -4,11 +4,11 @@
 #include <functional>
 #include <optional>
 
-#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include "calibration/sensor_calibration.hpp"
 #include "cloud/fingerprint.hpp"
+#include "cloud/more_workers.hpp"
 #include "cloud/preprocess.hpp"
 #include "odometry/adaptive_threshold.hpp"
 #include "odometry/initial_pose.hpp"
@@ -75,7 +75,7 @@ class Pipeline {
 
   OdometryConfig config_;
   StageClock clock_;
-  tbb::global_control workers_;  // more than the machine has when config.threads says so
+  MoreWorkers workers_;
   tbb::task_arena arena_;
   TimeBudget budget_;
   PointShares shares_;  // of this sweep

@@ -10,11 +10,11 @@ void MapObserver::on_registered(const RegisteredSweep& sweep) {
 void MapObserver::on_restart(const Restart& /*restart*/) { map_ = ThinnedMap(voxel_m_); }
 
 void MapObserver::on_end(const Odometry& odometry) {
-  if (map_.points().empty()) local_ = odometry.local_map();
+  if (map_.size() == 0) local_ = odometry.local_map();
 }
 
 MapCloud MapObserver::cloud(bool with_normals) const {
-  if (!map_.points().empty()) return map_.cloud(with_normals);
+  if (map_.size() > 0) return map_.cloud(with_normals);
   MapCloud cloud;
   cloud.points = local_;
   return cloud;

@@ -1,6 +1,9 @@
 // Voxel downsampling of one cloud and of a whole run.
+#include <array>
+#include <cmath>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -108,6 +111,32 @@ TEST(ThinnedMapTest, IntensitiesAreThoseOfAllPointsOrNone) {
   map.add({{3.0F, 0.0F, 0.0F}}, SE3::Identity(), {5.0F});
   EXPECT_EQ(map.cloud(false).points.size(), 3U);
   EXPECT_TRUE(map.cloud(false).intensities.empty());
+}
+
+TEST(ThinnedMapTest, APointAVoxelOnAllSidesOfTheOrigin) {
+  std::mt19937 rng(9);
+  std::uniform_real_distribution<float> any(-9.0F, 9.0F);
+  constexpr double kVoxelM = 0.25;
+  ThinnedMap map(kVoxelM);
+  std::set<std::array<int, 3>> voxels;
+  for (int sweep = 0; sweep < 5; ++sweep) {
+    std::vector<Eigen::Vector3f> points(20000);
+    for (Eigen::Vector3f& p : points) {
+      p = {any(rng), any(rng), any(rng)};
+      const Eigen::Vector3i voxel = (p.cast<double>() / kVoxelM).array().floor().matrix().cast<int>();
+      voxels.insert({voxel.x(), voxel.y(), voxel.z()});
+    }
+    map.add(points, SE3::Identity());
+    ASSERT_EQ(map.size(), voxels.size());
+  }
+}
+
+TEST(ThinnedMapTest, WhatMakesNoMapIsRefused) {
+  for (const double voxel_m : {0.0, -1.0, 1e-4, 101.0, std::nan("")}) {
+    EXPECT_THROW(ThinnedMap{voxel_m}, std::invalid_argument) << voxel_m;
+  }
+  ThinnedMap map(0.2);
+  EXPECT_THROW(map.add({{1.0F, 0.0F, 0.0F}, {2.0F, 0.0F, 0.0F}}, SE3::Identity(), {3.0F}), std::invalid_argument);
 }
 
 TEST(ThinnedMapTest, ALineHasNoNormals) {

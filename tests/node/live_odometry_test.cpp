@@ -193,19 +193,6 @@ TEST(LiveOdometry, ParametersMayChangeWhileTheFramesAreRead) {
   EXPECT_TRUE(output.warnings.empty());
 }
 
-TEST_F(RunningNode, AJumpBackInTimeStartsAnew) {
-  auto later = std::make_shared<Sweep>(drive()[3]);
-  later->stamp_ns += 60'000'000'000;
-  odometry.push(message_of(later));
-  odometry.push(message(0));
-  odometry.push(message(1));
-  ASSERT_TRUE(output.wait_poses(3));
-  odometry.stop();
-  expect_pose(output.odometry[2].pose, expected_poses(2)[1]);
-  EXPECT_EQ(value_of(odometry.report(), "resets"), "1");
-  EXPECT_THAT(output.warnings.back(), HasSubstr("back in time"));
-}
-
 TEST_F(RunningNode, AMessageThatCannotBeReadIsLeftOut) {
   LiveQueue::Message broken = message(1);
   std::get<LiveCloud>(broken.content).message.width *= 2;

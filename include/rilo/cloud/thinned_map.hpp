@@ -1,8 +1,10 @@
 // The map of a whole run: one point a voxel.
 #pragma once
 
+#include <bitset>
 #include <cstdint>
-#include <unordered_set>
+#include <deque>
+#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,32 +21,41 @@ struct MapCloud {
 };
 
 /// Collects points of many sweeps and keeps the first one of every voxel. Memory grows with the area seen, not with
-/// time.
+/// time, by some 20 bytes a point; nothing that grows is ever moved as a whole, so that no sweep waits for it.
 class ThinnedMap {
  public:
   /// Smaller voxels would share their keys, larger ones are no map (m).
   static constexpr double kLeastVoxelM = 0.001;
   static constexpr double kMostVoxelM = 100.0;
 
-  explicit ThinnedMap(double voxel_m) : voxel_m_(voxel_m) {}
+  /// @throws std::invalid_argument for a voxel below kLeastVoxelM or above kMostVoxelM.
+  explicit ThinnedMap(double voxel_m);
 
   /// Adds points of the sensor frame (m, finite) seen at `T_odom_lidar`; `intensities`: empty for all sweeps, or as
-  /// long as the points.
+  /// long as the points. @throws std::invalid_argument for another number of them.
   void add(const std::vector<Eigen::Vector3f>& points, const SE3& T_odom_lidar,
            const std::vector<float>& intensities = {});
 
-  /// Odometry frame, m.
-  const std::vector<Eigen::Vector3f>& points() const { return points_; }
+  /// Number of points.
+  std::size_t size() const { return points_.size(); }
+
+  /// A copy; odometry frame, m.
+  std::vector<Eigen::Vector3f> points() const { return {points_.begin(), points_.end()}; }
 
   /// The points with their intensities and, when wanted, normals.
   MapCloud cloud(bool with_normals) const;
 
  private:
+  // Whether there is a point, of 16 × 16 × 16 voxels.
+  using Block = std::bitset<4096>;
+
+  bool take(const Eigen::Vector3d& point);
+
   double voxel_m_;
-  std::unordered_set<std::uint64_t> taken_;
-  std::vector<Eigen::Vector3f> points_;
-  std::vector<float> intensities_;
-  std::vector<std::uint32_t> sweeps_;    // which one each point is of
+  std::unordered_map<std::uint64_t, Block> taken_;  // by the key of the block
+  std::deque<Eigen::Vector3f> points_;
+  std::deque<float> intensities_;
+  std::deque<std::uint32_t> sweeps_;     // which one each point is of
   std::vector<Eigen::Vector3f> places_;  // of the sensor, by sweep
 };
 

@@ -55,6 +55,11 @@ class LiveQueue {
   /// So many messages make up a sweep: LiveQueueOptions::limit is one of sweeps from then on.
   void join(std::size_t parts);
 
+  /// The source that reads ends, so that another one can be opened on what comes: it looks ahead again.
+  void end_source();
+  /// Whether that was asked for since the last call; from here on messages are handed out again.
+  bool take_end_of_source();
+
   /// Wakes the reader: the source ends with what is waiting thrown away.
   void close();
 
@@ -74,6 +79,7 @@ class LiveQueue {
   std::size_t taken_ = 0;
   std::size_t dropped_ = 0;
   bool closed_ = false;
+  bool source_ends_ = false;
 };
 
 }  // namespace rilo

@@ -65,7 +65,8 @@ class LiveOdometry {
   void note_bad_message(const std::string& why);
   void note_lost(std::size_t total);
 
-  /// Forgets map, path and motion. The next sweep is the identity, with the present configuration.
+  /// Forgets map, path and motion, and what the messages looked like (frame, period, point times). The next sweep is
+  /// the identity, with the present configuration; look_ahead messages are looked at before.
   void reset();
 
   /// Sets where the base was at the last sweep (before the first: is there at the first). Path and maps move along.

@@ -35,6 +35,7 @@ struct NodeOptions {
   double path_period_s = 1;        ///< of the sweeps' stamps; 0: at every sweep
   double local_map_period_s = 1;   ///< the same
   double map_voxel_m = 0.2;        ///< of the map of the whole run, for save_map; 0: none is kept
+  int map_points = 20'000'000;     ///< that it has at most; 0: no limit
   double diagnostic_period_s = 1;  ///< of wall time
 };
 

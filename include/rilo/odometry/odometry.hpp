@@ -36,8 +36,8 @@ class Odometry {
   /// Registers one sweep (a Sweep or a view of one, which is not used after the call). Stamps must increase; a sweep
   /// whose stamp does not is registered as if one usual period had passed. Never throws on bad data: the status in the
   /// result reports it.
-  /// @throws std::invalid_argument when start_with() was given the angles of another sensor; the sweep is not
-  /// registered.
+  /// @throws std::invalid_argument when times, intensities or rings are neither none nor as many as the points, or
+  /// when start_with() was given the angles of another sensor; the sweep is not registered.
   SweepResult register_sweep(const SweepView& sweep);
 
   /// Poses so far, one per registered sweep.

@@ -80,7 +80,7 @@ class SessionObserver {
 /// Collects the points of all sweeps with a pose that can be trusted (belongs_in_map), the first one of every voxel.
 class MapObserver final : public SessionObserver {
  public:
-  /// `voxel_m`: edge of the voxels, m, positive.
+  /// `voxel_m`: edge of the voxels, m. @throws std::invalid_argument as ThinnedMap.
   explicit MapObserver(double voxel_m) : voxel_m_(voxel_m), map_(voxel_m) {}
 
   void on_registered(const RegisteredSweep& sweep) override;

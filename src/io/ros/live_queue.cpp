@@ -27,6 +27,20 @@ void LiveQueue::join(std::size_t parts) {
   parts_ = parts;
 }
 
+void LiveQueue::end_source() {
+  {
+    const std::lock_guard lock(mutex_);
+    source_ends_ = true;
+  }
+  arrived_.notify_all();
+}
+
+bool LiveQueue::take_end_of_source() {
+  const std::lock_guard lock(mutex_);
+  if (source_ends_) taken_ = 0;
+  return std::exchange(source_ends_, false);
+}
+
 void LiveQueue::close() {
   {
     const std::lock_guard lock(mutex_);
@@ -38,13 +52,13 @@ void LiveQueue::close() {
 
 std::optional<LiveQueue::Message> LiveQueue::pop(std::optional<double> longest_s) {
   std::unique_lock lock(mutex_);
-  const auto ready = [this] { return closed_ || !waiting_.empty(); };
+  const auto ready = [this] { return closed_ || source_ends_ || !waiting_.empty(); };
   if (longest_s) {
     arrived_.wait_for(lock, std::chrono::duration<double>(*longest_s), ready);
   } else {
     arrived_.wait(lock, ready);
   }
-  if (waiting_.empty()) return std::nullopt;
+  if (waiting_.empty() || source_ends_) return std::nullopt;
   Message message = std::move(waiting_.front());
   waiting_.pop_front();
   ++taken_;

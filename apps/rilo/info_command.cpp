@@ -31,6 +31,13 @@ namespace rilo::cli {
 
 namespace {
 
+constexpr const char* kInfoFooter =
+    R"(Unless --point-times none is given, it also registers the first sweeps (300 at most) with and without times, to tell
+raw points from compensated ones.
+
+Example:
+  rilo info kitti/sequences/00)";
+
 struct InfoFlags {
   std::string data;
   SourceRequest source;
@@ -194,7 +201,7 @@ void print_info(const InfoFlags& flags, const std::string& options_text) {
 void add_info_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<InfoFlags>();
   CLI::App* command = app.add_subcommand("info", "what a data set holds");
-  command->footer("Example:\n  rilo info kitti/sequences/00");
+  command->footer(kInfoFooter);
   command->add_option("DATA", flags->data, "folder or file with sweeps")->required()->check(path_given());
   command->add_flag("--all", flags->all, "read every sweep (counts gaps in the stamps too) instead of about fifty");
   command->add_flag("--json", flags->json, "print JSON");

@@ -24,13 +24,13 @@ inline constexpr std::size_t kStatusCount = 6;
 /// Short name for files: ok, initialising, degenerate, lost, recovered, empty.
 std::string_view to_string(OdometryStatus status);
 
-/// Why a sweep is lost; of several causes the first.
+/// Why a sweep is lost; of several causes the first, but kCovered before kUnsolved.
 enum class LossCause : std::uint8_t {
   kNone,
   kUnsolved,         ///< the registration had no system to solve
   kCovered,          ///< all is much nearer than in the sweep before, as under a cloth
   kOutOfTime,        ///< the time budget ended the registration while the points still moved
-  kAmbiguous,        ///< it may as well lie elsewhere along its weakest directions, or did not settle in a search
+  kAmbiguous,        ///< it may as well lie elsewhere: along its weakest directions, on its path, where predicted
   kFitsWorse,        ///< than the sweeps before
   kFoundByChance,    ///< after a lost sweep: a search found a place that explains less of it than usual
   kFitsBeside,       ///< places a metre beside explain it about as well

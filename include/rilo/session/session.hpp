@@ -74,7 +74,7 @@ struct SessionResult {
   SensorAngles learnt;                           ///< after the pass with more sweeps, with where it was learnt
   std::size_t learnt_from = 0;                   ///< sweeps of that pass
   PoseInstant pose_instant = PoseInstant::kMid;  ///< of the sweep, that the poses refer to
-  double wall_s = 0;                             ///< duration of the run, both passes; not of the trial
+  double wall_s = 0;                             ///< duration of both passes; not of what is tried before
   double peak_rss_mb = 0;                        ///< largest memory of this process so far
   bool interrupted = false;                      ///< by SessionOptions::interrupted
   std::exception_ptr failure;                    ///< that ended the run; null: none

@@ -31,8 +31,8 @@ constexpr std::size_t kReplaySweepBytes = 256U << 20U;
 constexpr const char* kViewFooter =
     R"(RESULTS is a folder that rilo run --out has written. The sweeps are read again from where the run had them (the path in
 metrics.json; --data when they have moved). Where they no longer exist, trajectory, figures and a map file in RESULTS
-(.ply or .pcd) are shown. Options on how data are read must be those of the run; topic, elevation correction and times
-from azimuth or order are taken from metrics.json. Ctrl-C ends it.
+(.ply or .pcd) are shown. Options on how data are read must be those of the run; topic, elevation correction, parts and
+times from azimuth (with the direction) or order are taken from metrics.json. Ctrl-C ends it.
 
 Examples:
   rilo view results

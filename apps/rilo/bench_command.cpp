@@ -1,5 +1,6 @@
 // rilo bench: several configurations on several sequences.
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -25,7 +26,8 @@ finished: cells that failed, that were interrupted, or whose data, configuration
     - name: A, no coarse registration
       set: [coarse.enabled=false]
 
-Leaves in --out: results.json, results.csv, results.md, results.sqlite; in cells/ a file and a log per cell.
+Leaves in --out: results.json, results.csv, results.md, results.sqlite, with peers paired.csv; in cells/ a file and a log
+per cell.
 
 Examples:
   rilo bench experiments/ablation.yaml --root drives --out results --jobs 4
@@ -58,7 +60,8 @@ form, as M2DGR provides them). hall_01, hall_02, hall_03, room_01, door_01 and l
 Example:
   rilo bench m2dgr data/m2dgr --out results/m2dgr)";
 
-void add_common_flags(CLI::App& command, BenchFlags& flags) {
+/// `plan`: the command has a FILE.
+void add_common_flags(CLI::App& command, BenchFlags& flags, bool plan) {
   BenchOrder& order = flags.order;
   command.add_option("--out", order.out, "folder for the results (created); what is finished there is not run again")
       ->check(path_given());
@@ -66,7 +69,10 @@ void add_common_flags(CLI::App& command, BenchFlags& flags) {
       .add_option("--baseline", order.baseline,
                   "folder, results.json or results.sqlite of an earlier benchmark to print the difference to")
       ->check(path_given());
-  command.add_option("--count", order.run.count, "run that many sweeps of every sequence; 0: as FILE says, else all")
+  command
+      .add_option(
+          "--count", order.run.count,
+          std::string("run that many sweeps of every sequence; 0: ") + (plan ? "as FILE says, else all" : "all"))
       ->check(whole_number());
   command
       .add_option("--threads", order.run.threads,
@@ -82,7 +88,9 @@ void add_common_flags(CLI::App& command, BenchFlags& flags) {
       ->check(whole_number(10000));
   command.add_option("--retries", order.retries, "run a cell that failed that many times more")
       ->check(whole_number(100));
-  command.add_option("--repeats", flags.repeats, "run every cell that often; default: as FILE says, else once")
+  command
+      .add_option("--repeats", flags.repeats,
+                  std::string("run every cell that often; default: ") + (plan ? "as FILE says, else once" : "once"))
       ->check(number_within(1, 1000));
   command.add_option("--sbatch", order.sbatch, "option for sbatch, repeatable: --sbatch=--time=60")
       ->allow_extra_args(false);
@@ -97,7 +105,7 @@ void add_paper_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags
   command->add_option("ROOT", flags->root, "folder of the data set")->required()->check(path_given());
   command->add_option("--config", flags->config_file, "YAML configuration")->check(path_given());
   command->add_option("--set", flags->settings, "key=value, repeatable; overrides the file")->allow_extra_args(false);
-  add_common_flags(*command, *flags);
+  add_common_flags(*command, *flags, false);
 }
 
 void add_show_command(CLI::App& bench, const std::shared_ptr<BenchFlags>& flags) {
@@ -171,7 +179,7 @@ void add_bench_command(CLI::App& app, const std::string& command_line, int& exit
       ->add_option("--peer-figures", flags->peer_figures,
                    "CSV with figures of other programs: columns drive, peer, t_rel_pct and more")
       ->check(path_given());
-  add_common_flags(*command, *flags);
+  add_common_flags(*command, *flags, true);
   add_source_flags(*command, flags->order.run.source);
   add_paper_command(*command, flags, "kitti", "the paper's Tables I and II", kKittiFooter);
   add_paper_command(*command, flags, "m2dgr", "the paper's Table III", kM2dgrFooter);

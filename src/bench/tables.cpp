@@ -72,7 +72,7 @@ TitledTable accuracy(const std::vector<BenchCell>& cells) {
   }
   result.note =
       "APE after SE(3) alignment, unaligned with the first poses made equal; RPE per sweep, rmse; given °: added to "
-      "the points' elevation angles as given; own °: added on top of it, estimated by Rilo, at the last sweep.";
+      "the points' elevation angles as given; own °: added on top of it, estimated by Rilo, after the last sweep.";
   return result;
 }
 

@@ -65,12 +65,13 @@ def _whole_number(name, value):
 def open(path, **options):
     """Opens data of any format that `rilo run` reads and returns a ScanSource, which iterates over its sweeps.
 
-    path: folder (KITTI, KITTI raw, MulRan, .bin, .pcd, .ply), file, ROS 1 bag, rosbag2, MCAP or pcap.
+    path: folder (KITTI, KITTI raw, MulRan, the drive simulator, .bin, .pcd, .ply), file, ROS 1 bag, rosbag2, MCAP or
+    pcap.
 
     Options, named as those of the command:
-    topic:                    PointCloud2 topic of a recording that has several.
-    sensor_file:              what a pcap needs: an Ouster's metadata (JSON; by default the one beside the recording) or
-                              an HDL-64E's calibration (YAML of velodyne_pointcloud).
+    topic:                    topic of a recording that has several with scans.
+    sensor_file:              what packets need: an Ouster's metadata (JSON; by default the one in or beside the
+                              recording) or an HDL-64E's calibration (YAML of velodyne_pointcloud).
     bin_fields:               columns of a .bin record, float32 each: "x,y,z,intensity,time,ring"; _ is ignored.
     point_times:              auto: from the data when it has them; azimuth: from the angle of a spinning sensor whose
                               sweep is stamped at its forward direction (KITTI raw); order: from the order in which a
@@ -134,8 +135,9 @@ def run(
     config, settings: as for Odometry.
     start, count:     sweeps to skip, and to run at most (0: all).
     calibration:      angles of this sensor, learnt in another run: a path, or the text of RunResult.calibration.
-    one_pass:         single pass, as in live operation. Otherwise the run restarts, once, with what the first 200
-                      sweeps say about the sensor: its elevation offset and the angles of its beams.
+    one_pass:         single pass, as in live operation. Otherwise the run restarts, once, where the first 200 sweeps
+                      say something about the sensor (its elevation offset, the angles of its beams) or about the motion
+                      at a late beginning.
     map_voxel_m:      also collects the map of the whole run, one point per voxel of this edge, m.
     progress:         shows a line on stderr.
     on_sweep:         called after every sweep with (index, SweepResult, Sweep).

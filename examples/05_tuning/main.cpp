@@ -15,9 +15,13 @@ rilo::SessionResult run(const char* name, const char* data, const rilo::Odometry
   options.config = config;
   rilo::SessionResult result = rilo::run_recording(data, options);
   std::size_t ok = 0;
-  for (const rilo::SweepResult& sweep : result.results) ok += sweep.status == rilo::OdometryStatus::kOk ? 1 : 0;
-  std::printf("%s: %.1f ms per sweep, %zu of %zu ok\n", name,
-              1000 * result.wall_s / static_cast<double>(result.results.size()), ok, result.results.size());
+  double total_ms = 0;
+  for (const rilo::SweepResult& sweep : result.results) {
+    ok += sweep.status == rilo::OdometryStatus::kOk ? 1 : 0;
+    total_ms += sweep.stats.times.total_ms;
+  }
+  std::printf("%s: %.1f ms per sweep, %zu of %zu ok\n", name, total_ms / static_cast<double>(result.results.size()), ok,
+              result.results.size());
   return result;
 }
 

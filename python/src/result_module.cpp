@@ -45,7 +45,7 @@ void add_statistics(py::class_<SweepResult>& result) {
           "Weighted point-to-plane residual, m.")
       .def_property_readonly(
           "sigma_th_m", [](const SweepResult& r) { return r.stats.sigma_th_m; },
-          "Correspondence threshold used for this sweep, m.")
+          "Scale of the weights (adaptive threshold) that this sweep was registered with, m.")
       .def_property_readonly(
           "iterations", [](const SweepResult& r) { return r.stats.iterations; }, "Iterations of the fine registration.")
       .def_property_readonly(

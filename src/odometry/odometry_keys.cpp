@@ -102,7 +102,7 @@ void add_initial_pose(KeyVisitor& keys, InitialPoseConfig& c) {
   keys.boolean({"restarts", "", "in doubt, start the coarse stage also from poses found by a search on the map",
                 "experiment: coarse stage with restarts"},
                c.restarts);
-  keys.real({"search_shift_m", "m", "half width of that search along x and y", kNotTuned}, c.search_shift_m, 0, 50);
+  keys.real({"search_shift_m", "m", "radius of that search in x and y", kNotTuned}, c.search_shift_m, 0, 50);
   keys.real({"search_yaw_rad", "rad", "half width of that search in yaw", kNotTuned}, c.search_yaw_rad, 0, 3.2);
 }
 

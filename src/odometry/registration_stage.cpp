@@ -48,6 +48,19 @@ void compare_with_prediction(const RegistrationContext& context, const PoseSearc
   found.ambiguous = found.ambiguous || ambiguous;
 }
 
+/// A sensor that stops or turns round leaves the basin of the usual gate, and the sweep creeps within it. Once more as
+/// if nothing were known of the motion: from no motion, with the threshold of the beginning. Kept where it fits clearly
+/// better.
+void retry_from_rest(const RegistrationContext& context, const PoseSearch& search, Registration& found) {
+  const MotionState at_rest{context.tracker.trusted().T_odom_lidar, Vector6d::Zero()};
+  const double wide_m = std::max(context.config.threshold.initial_m, context.sigma_th_m);
+  Registration other = search.to_map(at_rest, context.tracker.prior(at_rest), wide_m, search.icp(), search.end());
+  found.starts = other.starts = found.starts + 1;
+  if (settled(other.icp) && suspicious(found.quality, other.quality)) {
+    found = std::move(other);
+  }
+}
+
 /// A sweep of another time lies where no velocity of the sensor led to, and what its pose implies bends it: once more
 /// from there with the velocity before, kept where the sweep then fits as usual.
 void retry_as_before(const RegistrationContext& context, const PoseSearch& search, Registration& found) {
@@ -55,6 +68,27 @@ void retry_as_before(const RegistrationContext& context, const PoseSearch& searc
   found.starts = other.starts = found.starts + 1;
   if (settled(other.icp) && !context.initial_pose.suspicious(other.quality)) {
     found = std::move(other);
+  }
+}
+
+/// What fits worse than usual, from other starts than its own. `refuted`: that start, where the prediction was none.
+void try_other_starts(const RegistrationContext& context, const PoseSearch& search, const MotionState& predicted,
+                      const std::optional<MotionState>& refuted, Registration& found) {
+  const auto due = [&] { return context.initial_pose.suspicious(found.quality) && !search.end().passed(); };
+  if (!refuted) {
+    if (due()) {
+      retry_from_rest(context, search, found);
+    }
+    return;
+  }
+  // Where the sensor cannot have moved so, the velocity before is what it started with. After a gap to try it takes
+  // time for nothing (experiment: search from coarse to fine).
+  const bool implied = !context.after_gap && refuted->twist != context.tracker.trusted().twist;
+  if (implied && due()) {
+    retry_as_before(context, search, found);
+  }
+  if (!context.tracker.lost() && due()) {
+    compare_with_prediction(context, search, predicted, found);
   }
 }
 }  // namespace
@@ -87,15 +121,7 @@ Registration fine_registration(const RegistrationContext& context, const MotionS
       return usual;
     }
   }
-  // Where the sensor cannot have moved so, the velocity before is what it started with. After a gap to try it takes
-  // time for nothing (experiment: search from coarse to fine).
-  const bool implied = refuted && !context.after_gap && initial.twist != context.tracker.trusted().twist;
-  if (implied && context.initial_pose.suspicious(found.quality) && !search.end().passed()) {
-    retry_as_before(context, search, found);
-  }
-  if (refuted && !context.tracker.lost() && context.initial_pose.suspicious(found.quality) && !search.end().passed()) {
-    compare_with_prediction(context, search, predicted, found);
-  }
+  try_other_starts(context, search, predicted, refuted, found);
   if (context.initial_pose.suspicious(found.quality) || newly_degenerate(context, found)) {
     found.cut = search.end().passed();
     if (!found.cut) {

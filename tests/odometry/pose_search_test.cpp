@@ -79,6 +79,25 @@ TEST_F(PoseSearches, AfterALossWhatWasFoundHoldsWithinTheUsualGate) {
   }
 }
 
+// Too near the prediction to be of another time, too far for the usual gate.
+TEST_F(PoseSearches, ASensorThatBrakesIsFoundFromRestWithinTheGateOfTheBeginning) {
+  map_road(kIrregular);
+  see_road(0.6, kIrregular);
+  initial_pose_.learn(0.9, 1e9);  // nothing fits as usual
+  RegistrationContext narrow = context();
+  narrow.sigma_th_m = narrow.usual_sigma_th_m = 0.03;
+  InitialPose init;
+  init.T_odom_lidar = predicted().T_odom_lidar;
+  const Registration from_prediction =
+      PoseSearch(narrow).to_map(predicted(), tracker_.prior(std::nullopt), 0.03, config_.icp, {});
+  ASSERT_GT(x_of(from_prediction), 0.8);
+  const Registration found = fine_registration(narrow, predicted(), init);
+  EXPECT_NEAR(x_of(found), 0.6, 0.02);
+  EXPECT_EQ(found.starts, 2);
+  EXPECT_EQ(found.sigma_th_m, config_.threshold.floor_m);
+  EXPECT_FALSE(found.ambiguous);
+}
+
 TEST_F(PoseSearches, WhatMayLieElsewhereStillMayWhenItHolds) {
   map_road(kIrregular);
   see_road(4.0, kIrregular);

@@ -38,7 +38,7 @@ struct InitialPoseConfig {
   double alarm = 0.7;           ///< the prediction is in doubt when its score is below this share of the usual score
   double margin = 0.03;         ///< share by which the coarse score must exceed the prediction's
   bool restarts = true;         ///< in doubt, start the coarse stage also from poses found by a search on the map
-  double search_shift_m = 4.0;  ///< half width of that search along x and y
+  double search_shift_m = 4.0;  ///< radius of that search in x and y
   double search_yaw_rad = 0.6;  ///< half width of that search in yaw
 };
 

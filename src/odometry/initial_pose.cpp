@@ -87,7 +87,7 @@ InitialPose InitialPoseStage::choose(const Situation& situation) {
 
 InitialPoseStage::Search InitialPoseStage::search(const Situation& situation, bool doubt) {
   const MotionState& predicted = situation.predicted;
-  deskew(situation.source, situation.single ? BodyMotion{predicted.twist} : predicted.motion(), compensated_);
+  deskew(situation.source, predicted.motion(), compensated_);
   moving_ = distribution(compensated_, situation.coarse_share);
   moving_twist_ = predicted.twist;
   if (!target_) {

@@ -84,7 +84,6 @@ void Pipeline::lose(const PreparedSweep& prepared, const MotionState& predicted,
 
 void Pipeline::begin_map(const PreparedSweep& prepared, const MotionState& guess, SweepResult& result) {
   result.status = OdometryStatus::kInitialising;
-  contradicted_ = false;
   const MotionState state = tracker_.begin(guess);
   judge_.begin(prepared, result.stats.loss_cause == LossCause::kCovered);
   insert(prepared.map_cloud, result, [&](const TimedCloud& cloud) {

@@ -146,13 +146,18 @@ TEST(BeamCalibration, APointOnTheAxisHasNoBeam) {
   BeamSample sample;
   for (const Eigen::Vector3f& p : scene.points) {
     sample.cloud.points.push_back(p);
-    sample.beams.push_back(beam_of(p, 2.0));
+    sample.beams.push_back(beam_of(p, 0.4));
   }
-  sample.cloud.points.front() = {0.0F, 0.0F, 1.65F};  // on the ceiling
+  sample.cloud.points.front() = {0.0F, 0.0F, 1.65F};  // on the ceiling, of a beam that others show
+  sample.beams.front() = 450;
   calibration.learn(sample, scene.map, scene.icp, 0.3, AdaptiveIcpConfig{});
   EXPECT_TRUE(calibration.rms_rad().allFinite());
   for (std::size_t beam = 0; beam < 1000; ++beam) {
     EXPECT_TRUE(calibration.angles().of(static_cast<Beam>(beam)).allFinite());
+  }
+  EXPECT_GT(calibration.rms_rad().x(), 0.0) << "the others are learnt";
+  for (const BeamCorrection& beam : calibration.corrections(0.0)) {
+    EXPECT_TRUE(std::isfinite(beam.elevation_rad)) << beam.beam;
   }
 }
 

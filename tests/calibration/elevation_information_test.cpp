@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "calibration/elevation_offset.hpp"
+#include "calibration/sensor_calibration.hpp"
 #include "cloud/elevation.hpp"
 #include "map/local_map.hpp"
 #include "registration/registration_scenes.hpp"
@@ -142,6 +143,27 @@ TEST_F(ElevationAndPose, ThePoseFollowsAnErrorOfSomeBeamsToo) {
   IcpResult held = icp;
   held.posterior_information = 1e12 * Matrix12d::Identity();
   EXPECT_NEAR(of_lower(information(source, held)), gains, 0.02 * std::abs(gains));
+}
+
+// A second pass over the sweeps: its poses have not yet moved with the angle.
+TEST_F(ElevationAndPose, ANewPassBeginsWithoutTheMotionOfTheLastPose) {
+  SensorCalibration calibration({}, {});
+  PreparedSweep prepared;
+  prepared.source = source;
+  calibration.learn(prepared, icp, kUnitWeights, config, false, map);
+  EXPECT_GT(calibration.pose_by_elevation().rotation.norm(), 0.01);
+  calibration.start_over();
+  EXPECT_TRUE(calibration.pose_by_elevation().rotation.isZero());
+  EXPECT_TRUE(calibration.pose_by_elevation().translation.isZero());
+}
+
+// Of every fourth point: each stands for four, as in the information of the registration.
+TEST_F(ElevationAndPose, ASampleOfThePointsSaysAsMuchAsAllOfThem) {
+  const ElevationInformation all = information(source, icp);
+  const ElevationInformation sample = elevation_information(source, map, icp, kUnitWeights, config, {}, 4);
+  EXPECT_NEAR(sample.information, all.information, 0.15 * all.information);
+  EXPECT_NEAR(sample.jacobian_m, all.jacobian_m, 0.1 * all.jacobian_m);
+  EXPECT_LT((sample.pose.rotation - all.pose.rotation).norm(), 0.1 * all.pose.rotation.norm());
 }
 
 // A registration that trusts its residuals less, since bushes scatter more than planes: all counts less, and the pose

@@ -84,6 +84,18 @@ TEST_P(SameSensor, PartsOfItAreAccepted) {
   EXPECT_EQ(other_sensor(learnt_from(all), sweep_of(20, -16.6, 0.53, GetParam())), "");
 }
 
+TEST_P(SameSensor, SomeBeamsThatMeetNothingAreNoDifference) {
+  const Sweep all = sweep_of(16, -15.0, 2.0, GetParam());
+  Sweep some;
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    const std::size_t beam = i % 16;
+    if (beam >= 5 && beam < 8) continue;
+    some.points.push_back(all.points[i]);
+    if (GetParam()) some.rings.push_back(all.rings[i]);
+  }
+  EXPECT_EQ(other_sensor(learnt_from(all), some), "");
+}
+
 TEST_P(SameSensor, BeamsThatAllLieElsewhereAreOfAnotherOne) {
   const SensorAngles known = learnt_from(sweep_of(16, 20.0, 2.0, true));
   EXPECT_THAT(other_sensor(known, sweep_of(64, -16.6, 0.53, false)),

@@ -94,6 +94,25 @@ TEST(PlaneRefitTest, AShiftInElevationIsOneOfPlaneAndPoints) {
   EXPECT_NEAR(plane.thickness_m, 0.05F, 0.005F);
 }
 
+// Points straight ahead at 10 m turn about the sensor's y axis; those that are no plane do so with all their axes.
+TEST(PlaneRefitTest, AShiftInElevationTurnsTheAxesOfScatteredPoints) {
+  PlaneGrid grid(1.0, PlaneCriteria{6, 20, 0.1, 0.05});
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d from_centre((corner & 1) != 0 ? 0.25 : -0.25, (corner & 2) != 0 ? 0.4 : -0.4,
+                                      (corner & 4) != 0 ? 0.15 : -0.15);
+    grid.insert({Eigen::Vector3d::Constant(0.5) + from_centre, {10.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 10.0F}});
+  }
+  grid.refit();
+  PlaneSpot spot;
+  ASSERT_EQ(grid.look_up(grid.index_of({0.5, 0.5, 0.5}), spot), PlaneGrid::Kind::kScatter);
+  constexpr double kAngle = 0.2;
+  grid.shift_elevation(kAngle, {});
+  const Eigen::Matrix3d axes = grid.scatter_at(spot).axes;
+  EXPECT_NEAR(std::abs(axes.col(0).dot(Eigen::Vector3d(-std::sin(kAngle), 0.0, std::cos(kAngle)))), 1.0, 1e-5);
+  EXPECT_NEAR(std::abs(axes.col(1).dot(Eigen::Vector3d(std::cos(kAngle), 0.0, std::sin(kAngle)))), 1.0, 1e-5);
+  EXPECT_NEAR(std::abs(axes.col(2).y()), 1.0, 1e-5);
+}
+
 TEST(PlaneRefitTest, WhatAVoxelForgetsDoesNotChangeItsMeans) {
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> side(0.1, 0.9);

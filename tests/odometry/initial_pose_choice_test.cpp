@@ -188,6 +188,17 @@ TEST_F(InitialPoseInAHall, AfterAGapItLiesWhereTheMotionBeforeLeads) {
   EXPECT_LT(rotation_angle_rad(turned.T_odom_lidar.inverse() * truth), 0.02);
 }
 
+TEST_F(InitialPoseInAHall, AfterAGapItIsAlsoSoughtFromWhereTheTurnHasFaded) {
+  InitialPoseConfig config;
+  config.restarts = false;
+  InitialPoseStage stage = begun(config);
+  const SE3 truth = moved(6.0, 4.0, 0.8);
+  const InitialPose choice = choose(stage, truth, moved(6.0, 4.0, 2.4), true, {}, Reach{truth, 2.0, 0.7});
+  EXPECT_EQ(choice.coarse_starts, 2);
+  EXPECT_LT((choice.T_odom_lidar.inverse() * truth).translation().norm(), 0.1);
+  EXPECT_LT(rotation_angle_rad(choice.T_odom_lidar.inverse() * truth), 0.02);
+}
+
 TEST_F(InitialPoseInAHall, ASearchThatRanOutOfTimeGoesOnWithTheMapInTheNextSweep) {
   const SE3 truth = moved(1.5, -1.0, 0.55);
   InitialPoseStage in_time = begun();

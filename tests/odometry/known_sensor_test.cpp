@@ -109,7 +109,8 @@ TEST(KnownSensor, AResetGoesBackToWhatWasGiven) {
 
 TEST(KnownSensor, AnotherSensorIsAnErrorAndNothingIsRegistered) {
   Odometry odometry(quick());
-  odometry.start_with(learnt_from(drive(6.0, 5)));
+  const SensorAngles learnt = learnt_from(drive(6.0, 5));
+  odometry.start_with(learnt);
   const std::vector<Sweep> others = drive(6.0, 1, SensorKind::kVlp16);
   for (int time = 0; time < 2; ++time) {  // not only the first sweep
     try {
@@ -122,6 +123,8 @@ TEST(KnownSensor, AnotherSensorIsAnErrorAndNothingIsRegistered) {
   EXPECT_TRUE(odometry.trajectory().empty());
   EXPECT_EQ(odometry.register_sweep(drive(6.0, 1)[0]).status, OdometryStatus::kInitialising);
   EXPECT_NO_THROW(odometry.register_sweep(others[0])) << "one look is enough";
+  odometry.start_with(learnt);
+  EXPECT_THROW(odometry.register_sweep(others[0]), std::invalid_argument) << "at what is given now";
 }
 
 TEST(KnownSensor, SweepsWithoutPointsSayNothing) {
@@ -138,6 +141,7 @@ TEST(KnownSensor, AFragmentOfASweepSaysNothing) {
   Sweep fragment = others[0];  // a recording begins within a sweep
   fragment.points.resize(50);
   fragment.times_s.resize(50);
+  fragment.intensities.resize(50);
   fragment.rings.resize(50);
   EXPECT_NO_THROW(odometry.register_sweep(fragment));
   EXPECT_THROW(odometry.register_sweep(others[1]), std::invalid_argument);

@@ -133,6 +133,15 @@ TEST_F(AfterAGap, AMapIsGivenUpAfterThreeTries) {
   EXPECT_FALSE(judge_.give_up(true, 8.0, kSearchedInVain)) << "a gap of half a second";
 }
 
+TEST_F(AfterAGap, TriesBeforeTheLastAcceptedSweepAreForgotten) {
+  EXPECT_FALSE(judge_.give_up(true, 1.0, kSearchedInVain));
+  EXPECT_FALSE(judge_.give_up(true, 2.0, kSearchedInVain));
+  judge_.accept(place_, found_, false);
+  EXPECT_FALSE(judge_.give_up(true, 16.0, kSearchedInVain)) << "the first of three";
+  EXPECT_FALSE(judge_.give_up(true, 17.0, kSearchedInVain));
+  EXPECT_TRUE(judge_.give_up(true, 18.0, kSearchedInVain));
+}
+
 // Its sweeps would fit a map of what covers the sensor, which moves along with it.
 TEST_F(AfterAGap, ACoveredSensorIsNoTry) {
   for (int covered = 0; covered < 4; ++covered) {

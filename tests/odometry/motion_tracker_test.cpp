@@ -118,6 +118,17 @@ TEST(MotionTracker, StampsThatMotionContradictsDoNotCount) {
   EXPECT_NEAR(tracker.since_trusted_s(), 0.1, 0.001);
 }
 
+TEST(MotionTracker, AStampThatWasUnevenIsSettledWithItsSweep) {
+  const auto information_after = [](std::int64_t late_ns) {
+    MotionTracker tracker = driving();
+    tracker.advance({.step_ns = kStepNs + late_ns, .even_ns = kStepNs});
+    tracker.accept(at(3.0), MotionVerdict::kPossible, false);
+    tracker.advance(after(kStepNs));
+    return tracker.prior(std::nullopt).information;
+  };
+  EXPECT_TRUE(information_after(kStepNs / 10).isApprox(information_after(0), 1e-9));
+}
+
 /// Swayed about x, 0.6 rad/s to and fro from sweep to sweep; its prior's information on the turn rate.
 double information_when_swayed(bool lost_between) {
   MotionTracker tracker = driving();

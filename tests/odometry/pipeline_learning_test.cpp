@@ -1,10 +1,13 @@
 // What the odometry takes from one sweep to the next: from which on, and what it is taken for.
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "cloud/elevation.hpp"
+#include "geometry/degrees.hpp"
 #include "rilo/odometry/odometry.hpp"
 #include "rilo/simulation/drive_simulator.hpp"
 #include "simulation/test_scenes.hpp"
@@ -85,6 +88,16 @@ TEST(PipelineLearning, AMapThatBeginsWithALostSecondSweepBeginsWhereThatWasFound
   EXPECT_NEAR(second.T_odom_lidar.translation().y(), 0.25, 0.02);
 }
 
+// A recording of one sweep, processed twice.
+TEST(PipelineLearning, AfterAResetTheSameSweepBeginsAMapAgain) {
+  Odometry odometry({});
+  const Sweep sweep = seen(make_box_room({9.3, 7.1, 3.3}, sampling_at(0.0, 0.0, 0)), 0);
+  EXPECT_EQ(odometry.register_sweep(sweep).status, OdometryStatus::kInitialising);
+  EXPECT_EQ(odometry.register_sweep(sweep).status, OdometryStatus::kEmpty) << "again";
+  odometry.reset();
+  EXPECT_EQ(odometry.register_sweep(sweep).status, OdometryStatus::kInitialising);
+}
+
 // A metre and a half in the first step and nothing in the next: one of the two did not take its time.
 TEST(PipelineLearning, AMapThatBeginsWithAClaimBeginsThere) {
   Odometry odometry({});
@@ -129,6 +142,104 @@ TEST(PipelineLearning, AfterAClaimTheNextSweepIsExpectedThere) {
       EXPECT_GT(result.stats.prediction_score, 0.9);
       EXPECT_NEAR(result.T_odom_lidar.translation().y(), 0.7, 0.02);
     }
+  }
+}
+
+// Five sweeps of another place are lost; of the next one a third fits, closely. After a gap the map could end here, but
+// no sweep is missing.
+TEST(PipelineLearning, SweepsThatWereLostAreNoGap) {
+  Odometry odometry({});
+  for (std::int64_t i = 0; i < 16; ++i) {
+    std::vector<Eigen::Vector3f> points;
+    SceneSampling sampling = sampling_at(0.0, 0.0, i);
+    sampling.noise_m = 0.015;
+    if (i < 10 || i == 15) {
+      points = make_box_room({9.3, 7.1, 3.3}, sampling);
+    }
+    if (i >= 10) {
+      const std::vector<Eigen::Vector3f> other = make_box_room({13.0, 11.0, 6.0}, sampling);
+      points.insert(points.end(), other.begin(), other.end());
+    }
+    const SweepResult result = odometry.register_sweep(seen(std::move(points), i));
+    EXPECT_EQ(result.status == OdometryStatus::kLost, i >= 10) << i << ' ' << to_string(result.status);
+    EXPECT_NE(result.stats.loss_cause, LossCause::kLooseAfterGap) << i;
+  }
+}
+
+// Pushed aside in dense dust: the sweep is found there, but fits too badly. Its pose is the guess, not what was found.
+TEST(PipelineLearning, ALostSweepIsGuessedWhereThePredictionLeads) {
+  Odometry odometry({});
+  for (std::int64_t i = 0; i < 10; ++i) {
+    SceneSampling sampling = sampling_at(0.0, i < 9 ? 0.0 : 0.15, i);
+    sampling.noise_m = i < 9 ? 0.005 : 0.08;
+    const SweepResult result = odometry.register_sweep(seen(make_box_room({9.3, 7.1, 3.3}, sampling), i));
+    if (i == 9) {
+      EXPECT_EQ(result.status, OdometryStatus::kLost);
+      EXPECT_EQ(result.stats.loss_cause, LossCause::kFitsWorse) << to_string(result.stats.loss_cause);
+      EXPECT_GT(result.stats.map_score, 0.6);
+      EXPECT_NEAR(result.T_odom_lidar.translation().y(), 0.0, 0.02);
+    }
+  }
+}
+
+// A hall of 24 m by 6 m in which the sensor turns to the side: the way along it is seen least, then across the sensor.
+TEST(PipelineLearning, TheEvidenceIsAlongTheAxesOfTheSensor) {
+  constexpr std::int64_t kTurned = 32;
+  Odometry odometry({});
+  for (std::int64_t i = 0; i <= kTurned; ++i) {
+    SceneSampling sampling = sampling_at(0.0, 0.0, i);
+    sampling.spacing_m = 0.15;
+    const double yaw_rad = 0.5 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(kTurned);
+    sampling.T_world_sensor.linear() = so3_exp(Eigen::Vector3d(0.0, 0.0, yaw_rad));
+    const SweepResult result = odometry.register_sweep(seen(make_box_room({24.0, 6.1, 3.3}, sampling), i));
+    const Eigen::Vector3d evidence = result.translation_evidence.diagonal();
+    if (i == 3) {
+      EXPECT_LT(evidence.x(), 0.7 * evidence.y());
+    } else if (i == kTurned) {
+      EXPECT_EQ(result.status, OdometryStatus::kOk);
+      EXPECT_LT(evidence.y(), 0.7 * evidence.x());
+    }
+  }
+}
+
+// A sensor whose elevation angles are half a degree too small: once that is known, what is in the map turns, too.
+TEST(PipelineLearning, TheMapMovesWithTheElevationOffset) {
+  OdometryConfig config;
+  config.beams.enabled = false;
+  Odometry learning(config);
+  config.elevation.enabled = false;
+  Odometry fixed(config);
+  const ElevationRotation too_low(-0.5 * kRadPerDeg);
+  double applied_rad = 0.0;
+  for (std::int64_t i = 0; i < 60 && applied_rad == 0.0; ++i) {
+    SceneSampling sampling = sampling_at(0.06 * static_cast<double>(i) - 1.8, 0.0, i);
+    sampling.T_world_sensor.translation().y() = std::sin(0.2 * static_cast<double>(i));
+    std::vector<Eigen::Vector3f> points = make_box_room({9.3, 7.1, 3.3}, sampling);
+    for (Eigen::Vector3f& p : points) p = too_low(p);
+    const Sweep sweep = seen(std::move(points), i);
+    applied_rad = learning.register_sweep(sweep).stats.elevation_applied_rad;
+    fixed.register_sweep(sweep);
+    EXPECT_EQ(learning.local_map() == fixed.local_map(), applied_rad == 0.0) << i;
+  }
+  EXPECT_GT(applied_rad, 0.1 * kRadPerDeg);
+}
+
+// Where a sweep was found again, a search decided on the pose, not the angles of the sensor.
+TEST(PipelineLearning, TheSensorIsNotLearntFromASweepThatWasFoundAgain) {
+  Odometry odometry({});
+  double known_rad = 0.0;
+  for (std::int64_t i = 0; i < 24; ++i) {
+    const double x_m = 0.06 * static_cast<double>(i) - 0.7;
+    const Eigen::Vector3d size = i == 21 ? Eigen::Vector3d(38.0, 27.0, 15.0) : Eigen::Vector3d(9.3, 7.1, 3.3);
+    const SweepResult result = odometry.register_sweep(seen(make_box_room(size, sampling_at(x_m, 0.0, i)), i));
+    if (i >= 20) {
+      EXPECT_EQ(result.status, i == 21   ? OdometryStatus::kLost
+                               : i == 22 ? OdometryStatus::kRecovered
+                                         : OdometryStatus::kOk)
+          << i << ' ' << to_string(result.status);
+      EXPECT_EQ(result.stats.elevation_offset_rad == known_rad, i == 21 || i == 22) << i;
+    }
+    known_rad = result.stats.elevation_offset_rad;
   }
 }
 

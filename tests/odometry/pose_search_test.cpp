@@ -61,6 +61,18 @@ TEST_F(PoseSearches, OnceConvergedTheScaleGoesDownToThatOfTheNoise) {
   EXPECT_EQ(found_with(4.0, 0.4).sigma_th_m, 0.4) << "the scale weighs nothing";
 }
 
+// What was found must then hold within the usual gate, which takes time, too.
+TEST_F(PoseSearches, ASearchAfterALossTakesSevenTenthsOfTheTime) {
+  const Deadline::Clock clock = [] { return std::int64_t{0}; };
+  map_road(kIrregular);
+  RegistrationContext all = context();
+  all.deadline = Deadline(clock, 100'000'000);
+  EXPECT_FALSE(PoseSearch(all).end().passed_after(99.0));
+  tracker_.lose(predicted(), std::nullopt);
+  EXPECT_FALSE(PoseSearch(all).end().passed_after(69.0));
+  EXPECT_TRUE(PoseSearch(all).end().passed_after(71.0));
+}
+
 TEST_F(PoseSearches, AfterALossWhatWasFoundHoldsWithinTheUsualGate) {
   config_.threshold.narrowing = 1.0;
   map_road(kIrregular);

@@ -81,6 +81,14 @@ TEST(SweepClock, AnEvenClockTicksOnUnderLateStamps) {
   }
 }
 
+// A stamp 40 ms late, of which half counts; the one that is 85 ms late then is that of the next tick but one.
+TEST(SweepClock, WhatAStampWasLateIsCarriedOn) {
+  SweepClock clock;
+  steps_ms(clock, {0, 100, 200, 300, 400, 500, 600, 700, 800, 940});
+  // Eleven ticks in 1085 ms, two of them in the last step.
+  EXPECT_NEAR(static_cast<double>(clock.advance(1085 * kMs).even_ns), 2.0 / 11.0 * 1085.0 * kMs, 2.0);
+}
+
 TEST(SweepClock, PairsOfStampsAreSweepsInARow) {
   SweepClock clock;
   std::vector<std::int64_t> stamps;

@@ -168,6 +168,16 @@ TEST(SweepOverlaps, InARowHalfOfThePlacesAndThoseBesideTheBestAreLookedAt) {
   EXPECT_EQ(overlaps[41], 0.0) << "not looked at";
 }
 
+// Four places at the beginning of the row have more in common than those around the best pair.
+TEST(SweepOverlaps, BothNeighboursOfAPlaceInARowAreLookedAt) {
+  for (const std::size_t best : {21U, 23U}) {
+    const auto overlap_at = [&](std::size_t i) {
+      return i == best ? 1.0 : i == 22 ? 0.9 : i < 8 && i % 2 == 0 ? 0.5 : 0.1;
+    };
+    EXPECT_EQ(most_of(overlaps_along(40, overlap_at, [] { return false; })), best);
+  }
+}
+
 /// Half of the points are taken 0.05 s before the pose, half after it.
 TimedCloud taken_at(double speed_m_s, TimedCloud cloud) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {

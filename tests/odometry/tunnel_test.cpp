@@ -84,5 +84,27 @@ TEST(InATunnel, WhereNothingShowsTheWayNoOtherPlaceIsTaken) {
   EXPECT_GT(degenerate, 50U);
 }
 
+// A sweep is covered, and the next one found again: it leaves the way along the tunnel as open as those before.
+TEST(InATunnel, WhatIsFoundAgainIsNoMoreCertainThanWhatIsSeen) {
+  Tunnel tunnel;
+  Odometry odometry({});
+  double before_m2 = 0.0;
+  for (std::size_t i = 0; i <= 101; ++i) {
+    std::vector<Eigen::Vector3f> points = tunnel.sweep(i);
+    for (Eigen::Vector3f& p : points) p *= i == 100 ? 0.2F : 1.0F;
+    SweepView view;
+    view.points = points;
+    view.stamp_ns = static_cast<std::int64_t>(i) * 100'000'000;
+    const SweepResult result = odometry.register_sweep(view);
+    if (i == 99) {
+      ASSERT_EQ(result.status, OdometryStatus::kDegenerate);
+      before_m2 = result.covariance(4, 4);
+    } else if (i == 101) {
+      ASSERT_EQ(result.status, OdometryStatus::kRecovered) << to_string(result.stats.loss_cause);
+      EXPECT_GT(result.covariance(4, 4), 0.5 * before_m2) << "across the tunnel";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rilo

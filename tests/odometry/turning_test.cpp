@@ -82,6 +82,8 @@ TEST(Turning, TheFirstSweepHasAVelocityOfItsOwn) {
   const SweepResult second = odometry.register_sweep(turning.sweep(0.5, 0.5));
   EXPECT_EQ(second.status, OdometryStatus::kOk);
   EXPECT_LT(yaw_error(second, turning.yaw_of_sweep(0.5)), 0.005);
+  // At 3 rad/s² points of 0.1 s are off by 3 · 0.1² / 24 rad on average; a fifth of its square counts at first.
+  EXPECT_GT(second.covariance(2, 2), 0.8 * 0.2 * std::pow(3.0 * 0.01 / 24.0, 2));
 }
 
 // A hand sways the sensor: up to 13 rad/s². At a constant velocity in each sweep the error is 0.0038 rad.
@@ -89,14 +91,28 @@ TEST(Turning, ASweepIsCompensatedForItsAcceleration) {
   const Turning turning(0.0, 0.0, 0.15);
   Odometry odometry({});
   double squares = 0.0;
+  std::vector<double> rates;
+  bool compensated_before = false;
+  int compared = 0;
   constexpr int kSweeps = 30;
   for (int i = 0; i < kSweeps; ++i) {
     const SweepResult result = odometry.register_sweep(turning.sweep(kPeriodS * i, kPeriodS * i));
     squares += std::pow(yaw_error(result, turning.yaw_of_sweep(kPeriodS * i)), 2);
+    rates.push_back(result.twist[2]);
     if (i > 2) {
       EXPECT_EQ(result.status, OdometryStatus::kOk) << i;
     }
+    const bool compensated = result.acceleration[2] != 0.0;  // not where a search found it
+    if (compensated && compensated_before) {
+      const auto k = static_cast<std::size_t>(i);
+      const double now = (rates[k] - rates[k - 1]) / kPeriodS;
+      const double before = (rates[k - 1] - rates[k - 2]) / kPeriodS;
+      EXPECT_NEAR(result.acceleration[2], now + 0.25 * (now - before), 1e-3) << "a quarter of its change goes on";
+      ++compared;
+    }
+    compensated_before = compensated;
   }
+  EXPECT_GT(compared, 5);
   EXPECT_LT(std::sqrt(squares / kSweeps), 0.0034);
 }
 

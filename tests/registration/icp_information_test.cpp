@@ -54,5 +54,19 @@ TEST_F(IcpInformation, SweepAndPriorAddUp) {
   EXPECT_TRUE(result.posterior_information.isApprox(result.sweep_information + prior.information, 1e-12));
 }
 
+// Along a direction that counts as not seen the sweep says nothing of the velocity either.
+TEST_F(IcpInformation, WhatIsLeftToThePriorIsLeftInTheVelocityToo) {
+  const TimedCloud source =
+      test::measured_in_motion(test::seen_from(SE3::Identity(), test::rimless_room(0.23, 0.37, 1.3)), Vector6d::Zero());
+  MotionPrior prior;
+  prior.information = 50.0 * Matrix12d::Identity();
+  AdaptiveIcpConfig config;
+  config.weak_direction = 50.0;  // relative eigenvalues are at most 1: nothing counts as seen
+  const IcpResult result = adaptive_icp(source, map_, {}, prior, 0.3, config);
+  EXPECT_GT(result.lidar_information.norm(), 1.0);
+  EXPECT_TRUE(result.sweep_information.isZero(1e-9)) << result.sweep_information.diagonal().transpose();
+  EXPECT_TRUE(result.posterior_information.isApprox(prior.information, 1e-9));
+}
+
 }  // namespace
 }  // namespace rilo

@@ -1,5 +1,6 @@
 // Every Jacobian against numeric differentiation, and the registrations on scenes with known answers.
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -173,6 +174,57 @@ TEST(CoarseRegistration, RecoversAKnownMotion) {
   const SE3 error = truth.inverse() * result.T_target_source;
   EXPECT_LT(error.translation().norm(), 0.05);
   EXPECT_LT(rotation_angle_rad(error), 0.02);
+}
+
+/// Points on a few squares at random places, with 5 cm of noise. `run`: of the points and the noise.
+std::vector<Eigen::Vector3d> scraps(unsigned seed, int squares, unsigned run) {
+  std::mt19937 places(seed);
+  std::mt19937 rng(run);
+  std::uniform_real_distribution<double> place(-6.0, 6.0);
+  std::uniform_real_distribution<double> side(-0.5, 0.5);
+  std::normal_distribution<double> noise(0.0, 0.05);
+  std::vector<Eigen::Vector3d> points;
+  for (int square = 0; square < squares; ++square) {
+    const auto draw = [](auto& from, auto& generator) {
+      const double x = from(generator);
+      const double y = from(generator);
+      return Eigen::Vector3d(x, y, from(generator));
+    };
+    const Eigen::Vector3d centre = draw(place, places).cwiseProduct(Eigen::Vector3d(1.0, 1.0, 0.3));
+    const Eigen::Vector3d a = draw(place, places).normalized();
+    const Eigen::Vector3d b = a.unitOrthogonal();
+    for (int i = 0; i < 60; ++i) {
+      const double u = side(rng);
+      const double v = side(rng);
+      points.push_back(centre + u * a + v * b + draw(noise, rng));
+    }
+  }
+  return points;
+}
+
+// Few points that change planes at every step keep some of these sweeps oscillating: held, they let them come to rest.
+TEST(AdaptiveIcp, WithHeldMatchesItComesToRest) {
+  int held = 0;
+  for (const unsigned seed : {331U, 434U, 498U}) {
+    for (const int squares : {2, 3, 4}) {
+      LocalMapConfig map_config;
+      map_config.voxel_m = 0.25;
+      map_config.levels = 3;
+      LocalMap map(map_config);
+      map.set_scene_range(6.0);
+      map.insert(test::seen_from(SE3::Identity(), scraps(seed, squares, 2 * seed)), SE3::Identity());
+      const SE3 T = pose(twist(0.01, -0.01, 0.02, 0.1, -0.05, 0.04));
+      const TimedCloud source{test::seen_from(T, scraps(seed, squares, 2 * seed + 1)), {}};
+      AdaptiveIcpConfig config;
+      config.max_iterations = 40;
+      for (const double sigma_m : {0.3, 0.4, 0.5, 0.7}) {
+        const IcpResult result = adaptive_icp(source, map, {}, {}, sigma_m, config);
+        held += result.frozen ? 1 : 0;
+        EXPECT_TRUE(result.converged() || !result.frozen) << seed << ' ' << squares << ' ' << sigma_m;
+      }
+    }
+  }
+  EXPECT_GT(held, 0);
 }
 
 TEST(CoarseRegistration, EmptyCloudsDoNotConverge) {

@@ -94,6 +94,18 @@ TEST_F(UnevenMotion, WhatTheLeastNoiseExplainsIsNoMotion) {
   EXPECT_GT(uneven_motion(source, map_, {}, kUnevenSigmaM, {}, kUnevenNoiseShare, 1)[5], 4e-5);
 }
 
+// Each point of a sample stands for as many as there are: noise explains no more of it.
+TEST_F(UnevenMotion, ASampleOfThePointsShowsTheSwingToo) {
+  TimedCloud source =
+      test::measured_in_motion(test::seen_from(SE3::Identity(), test::rimless_room(0.11, 0.37, 1.3)), Vector6d::Zero());
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    source.points[i].z() += 0.01F * std::sin(62.8319F * source.offsets_s[i]);
+  }
+  const double all = uneven_motion(source, map_, {}, kUnevenSigmaM, {}, 1e-2, 1)[5];
+  EXPECT_GT(all, 1e-5);
+  EXPECT_NEAR(uneven_motion(source, map_, {}, kUnevenSigmaM, {}, 1e-2, 4)[5], all, 0.1 * all);
+}
+
 TEST_F(UnevenMotion, OfStretchesThatDoNotSeeADirectionNothingCounts) {
   TimedCloud all =
       test::measured_in_motion(test::seen_from(SE3::Identity(), test::rimless_room(0.11, 0.37, 1.3)), Vector6d::Zero());

@@ -206,7 +206,10 @@ TEST(CompensationTrial, NotCertainWhereSweepsAreLost) {
   for (std::size_t i = 0; i < 12; ++i) {
     torn.push_back(raw().sweeps[2 * i]);
     torn.push_back(raw().sweeps[kTrialSweeps - 1]);
-    torn.back().points.resize(torn.back().points.size() / 2);
+    Sweep& half = torn.back();
+    half.points.resize(half.points.size() / 2);
+    half.intensities.resize(half.points.size());
+    half.rings.resize(half.points.size());
   }
   const CompensationTrial trial = trial_of(torn);
   EXPECT_GT(trial.lost, 3U);

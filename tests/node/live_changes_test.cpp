@@ -112,6 +112,24 @@ TEST_F(RunningNode, AResetTakesMessagesOfAnotherFrame) {
   EXPECT_EQ(output.transforms[3].child_frame, "os_lidar");
 }
 
+// It waits for the first messages, to look at them, when it is told to look anew.
+TEST(LiveChanges, AResetBeforeTheFirstMessageOrWhileLookingAhead) {
+  NodeOptions options = at_once();
+  options.look_ahead = 3;
+  Output output;
+  LiveOdometry odometry(options, "/points", output);
+  odometry.start();
+  odometry.reset();
+  odometry.push(message(0));
+  odometry.reset();
+  for (std::size_t i = 1; i < 6; ++i) odometry.push(message(i));
+  ASSERT_TRUE(output.wait_poses(5));
+  odometry.stop();
+  EXPECT_TRUE(output.failures.empty());
+  EXPECT_EQ(value_of(odometry.report(), "resets"), "2");
+  EXPECT_GE(value_of(odometry.report(), "sweeps registered"), "5");
+}
+
 TEST(LiveChanges, ALossAndANewMapAreToldAndSavedMapsSaySo) {
   NodeOptions options = at_once();
   options.config.health.restart_after = 3;

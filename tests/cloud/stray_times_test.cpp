@@ -41,6 +41,15 @@ TEST(StrayTimes, AreDroppedAndMoveNoMiddle) {
   }
 }
 
+TEST(StrayTimes, AreTwoOfAHundredAtMost) {
+  for (const std::size_t strays : {19U, 21U}) {
+    Preprocessor preprocessor{PreprocessConfig{}};
+    middle_s(preprocessor, revolution(0.1F));
+    EXPECT_EQ(preprocessor.prepare(revolution(0.1F, strays, 0.3F)).valid_points,
+              strays < 20 ? kPoints - strays : kPoints);
+  }
+}
+
 TEST(StrayTimes, ManyOfThemAreALongerSweep) {
   Preprocessor preprocessor{PreprocessConfig{}};
   EXPECT_NEAR(middle_s(preprocessor, revolution(0.025F)), 0.0125, 1e-6);  // a part, as drivers begin

@@ -74,9 +74,12 @@ void retry_as_before(const RegistrationContext& context, const PoseSearch& searc
 /// What fits worse than usual, from other starts than its own. `refuted`: that start, where the prediction was none.
 void try_other_starts(const RegistrationContext& context, const PoseSearch& search, const MotionState& predicted,
                       const std::optional<MotionState>& refuted, Registration& found) {
-  const auto due = [&] { return context.initial_pose.suspicious(found.quality) && !search.end().passed(); };
+  constexpr double kMuchWorse = 0.85;  // of what is suspicious (experiment: registered from rest)
+  const auto due = [&](double share = 1.0) {
+    return context.initial_pose.suspicious(found.quality / share) && !search.end().passed();
+  };
   if (!refuted) {
-    if (due()) {
+    if (due(kMuchWorse)) {
       retry_from_rest(context, search, found);
     }
     return;

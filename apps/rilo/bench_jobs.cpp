@@ -31,19 +31,8 @@ std::vector<BenchSequence> sequences_of(const BenchFlags& flags) {
   return sequences;
 }
 
-// A missing one alone fails as a cell, but a wrong --root is an error of the whole.
-void check_some_are_there(const BenchFlags& flags, const BenchPlan& plan) {
-  std::string missing;
-  for (const BenchSequence& sequence : plan.sequences) {
-    if (detail::path_exists(sequence.path)) return;
-    missing += (missing.empty() ? "" : ", ") + sequence.path.string();
-  }
-  throw RunError(RunErrorKind::kBadData,
-                 flags.plan + ": none of its sequences is there: " + missing +
-                     (flags.data.empty() ? "; name the folder that they lie in with --root" : "; see --data"));
-}
-
-void leave_out_missing(const BenchFlags& flags, BenchPlan& plan) {
+// A missing one alone fails as a cell, or is left out where the plan says so; a wrong --root is an error of the whole.
+void look_for_sequences(const BenchFlags& flags, BenchPlan& plan) {
   std::string missing;
   std::vector<BenchSequence> there;
   for (const BenchSequence& sequence : plan.sequences) {
@@ -53,6 +42,12 @@ void leave_out_missing(const BenchFlags& flags, BenchPlan& plan) {
       missing += (missing.empty() ? "" : ", ") + sequence.path.string();
     }
   }
+  if (there.empty()) {
+    throw RunError(RunErrorKind::kBadData,
+                   flags.plan + ": none of its sequences is there: " + missing +
+                       (flags.data.empty() ? "; name the folder that they lie in with --root" : "; see --data"));
+  }
+  if (!plan.skip_missing || !flags.data.empty()) return;
   if (!missing.empty() && !flags.order.run.quiet) std::cerr << "skipped, as they do not exist: " << missing << '\n';
   plan.sequences = std::move(there);
 }
@@ -136,8 +131,7 @@ std::vector<BenchJob> plan_jobs(BenchFlags& flags) {
     throw RunError(RunErrorKind::kUsage,
                    flags.plan + ": no sequences: in it; expected them there or folders after --data");
   }
-  check_some_are_there(flags, plan);
-  if (plan.skip_missing && flags.data.empty()) leave_out_missing(flags, plan);
+  look_for_sequences(flags, plan);
   add_peers(flags, plan);
   take_peer_figures(flags, plan);
   if (flags.repeats) plan.repeats = *flags.repeats;

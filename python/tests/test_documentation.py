@@ -2,11 +2,13 @@
 
 import ast
 import inspect
+import locale
 import pydoc
 import re
 from pathlib import Path
 
 import numpy as np
+import pytest
 from conftest import SWEEPS
 
 import rilo
@@ -25,6 +27,18 @@ def test_what_a_notebook_shows(drive, run, tmp_path):
     assert "path" in odometry._repr_html_()
     assert f"of {len(drive[0][0])} points at 0.000 s" in repr(next(source))
     assert f"of {SWEEPS} sweeps" in repr(rilo.Simulator(sweeps=SWEEPS))
+
+
+def test_numbers_have_a_point_whatever_the_locale(run):
+    before = locale.setlocale(locale.LC_NUMERIC)
+    try:
+        locale.setlocale(locale.LC_NUMERIC, "de_DE.UTF-8")
+    except locale.Error:
+        pytest.skip("no locale with a decimal comma here")
+    try:
+        assert re.search(r"\(-?\d+\.\d{3}, ", repr(run[1][-1]))
+    finally:
+        locale.setlocale(locale.LC_NUMERIC, before)
 
 
 def test_help_says_everything():

@@ -23,8 +23,8 @@ ThinnedMap::ThinnedMap(double voxel_m) : voxel_m_(voxel_m) {
 }
 
 /// False where its voxel has a point already.
-bool ThinnedMap::take(const Eigen::Vector3d& point) {
-  const VoxelIndex voxel = voxel_of(point, 1.0 / voxel_m_);
+bool ThinnedMap::take(const Eigen::Vector3d& point, double inverse_voxel) {
+  const VoxelIndex voxel = voxel_of(point, inverse_voxel);
   Block& block = taken_[voxel_key({voxel.x >> kBlockBits, voxel.y >> kBlockBits, voxel.z >> kBlockBits})];
   const std::size_t bit =
       within_block(voxel.x) | within_block(voxel.y) << kBlockBits | within_block(voxel.z) << 2 * kBlockBits;
@@ -39,11 +39,12 @@ void ThinnedMap::add(const std::vector<Eigen::Vector3f>& points, const SE3& T_od
     throw std::invalid_argument("intensities: " + std::to_string(intensities.size()) + " values for " +
                                 std::to_string(points.size()) + " points");
   }
+  const double inverse_voxel = 1.0 / voxel_m_;
   const auto sweep = static_cast<std::uint32_t>(places_.size());
   places_.push_back(T_odom_lidar.translation().cast<float>());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d world = T_odom_lidar * points[i].cast<double>();
-    if (!take(world)) {
+    if (!take(world, inverse_voxel)) {
       continue;
     }
     // A column of all points or none: later ones have no place behind a sweep without intensities.

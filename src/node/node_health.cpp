@@ -11,6 +11,7 @@ namespace rilo {
 namespace {
 
 constexpr std::size_t kStaleReports = 5;
+constexpr const char* kByAGuess = ": the poses before and after are connected by a guess";
 
 NodeLevel level_of(OdometryStatus status) {
   switch (status) {
@@ -53,7 +54,7 @@ NodeHealth::News NodeHealth::note_sweep(const SweepResult& result) {
   }
   if (result.status == OdometryStatus::kInitialising && maps_++ > 0) {
     ++fresh_maps_;
-    news.new_map = "a new map begins: the poses before and after are connected by a guess";
+    news.new_map = std::string("a new map begins") + kByAGuess;
   }
   last_ = result;
   if (!worst_ || level_of(result.status) > level_of(worst_->status)) worst_ = result;
@@ -126,10 +127,7 @@ void NodeHealth::judge_sweeps(StatusMessage& status) const {
     merge(level_of(worst_->status), sentence_of(*worst_) + " since the last report", status);
   }
   if (fresh_maps_ > 0) {
-    merge(NodeLevel::kError,
-          fmt::format("{} began: the poses before and after are connected by a guess",
-                      detail::counted(fresh_maps_, "new map")),
-          status);
+    merge(NodeLevel::kError, detail::counted(fresh_maps_, "new map") + " began" + kByAGuess, status);
   }
   if (map_is_full_) merge(NodeLevel::kWarn, "the map for save_map has map_points points: it takes no more", status);
 }

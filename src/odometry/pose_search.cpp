@@ -50,8 +50,9 @@ void PoseSearch::narrow(Registration& found, const MotionPrior& prior, AdaptiveI
   }
 }
 
-Registration PoseSearch::from(const MotionState& start) const {
-  return to_map(start, context_.tracker.prior(start), context_.sigma_th_m, icp_, end_);
+Registration PoseSearch::from(const MotionState& start, double least_sigma_th_m) const {
+  const double sigma_th_m = std::max(context_.sigma_th_m, least_sigma_th_m);
+  return to_map(start, context_.tracker.prior(start), sigma_th_m, icp_, end_);
 }
 
 void PoseSearch::rate(Registration& found, const LocalMap& map) const {

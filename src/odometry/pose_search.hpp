@@ -21,8 +21,9 @@ class PoseSearch {
   /// All points of the sweep, registered to the map from a start.
   Registration to_map(const MotionState& start, const MotionPrior& prior, double sigma_th_m,
                       const AdaptiveIcpConfig& icp, const Deadline& deadline) const;
-  /// The same from where the motion so far does not count, within the present gate, until the search ends.
-  Registration from(const MotionState& start) const;
+  /// The same from where the motion so far does not count, until the search ends; with the present threshold or a wider
+  /// one.
+  Registration from(const MotionState& start, double least_sigma_th_m = 0.0) const;
   /// Score and quality of a registration to a map.
   void rate(Registration& found, const LocalMap& map) const;
 

@@ -53,8 +53,7 @@ void compare_with_prediction(const RegistrationContext& context, const PoseSearc
 /// better.
 void retry_from_rest(const RegistrationContext& context, const PoseSearch& search, Registration& found) {
   const MotionState at_rest{context.tracker.trusted().T_odom_lidar, Vector6d::Zero()};
-  const double wide_m = std::max(context.config.threshold.initial_m, context.sigma_th_m);
-  Registration other = search.to_map(at_rest, context.tracker.prior(at_rest), wide_m, search.icp(), search.end());
+  Registration other = search.from(at_rest, context.config.threshold.initial_m);
   found.starts = other.starts = found.starts + 1;
   if (settled(other.icp) && suspicious(found.quality, other.quality)) {
     found = std::move(other);

@@ -1,6 +1,7 @@
 // Faults of the data, put into a simulated drive: no pose that the status vouches for is wrong, and tracking goes on.
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -217,6 +218,20 @@ TEST(Faults, TimesInAnotherUnitLeaveNothing) {
       EXPECT_EQ(odometry.register_sweep(sweep).status, OdometryStatus::kEmpty) << factor;
     }
   }
+}
+
+// The caller's mistake: a column that was dropped would cost the motion compensation, with status ok.
+TEST(Faults, AColumnOfAnotherLengthIsRefusedAndNothingIsRegistered) {
+  Odometry odometry(OdometryConfig{});
+  odometry.register_sweep(drive()[0].sweep);
+  for (auto cut : {+[](Sweep& s) { s.times_s.pop_back(); }, +[](Sweep& s) { s.intensities.assign(3, 0.0F); },
+                   +[](Sweep& s) { s.rings.assign(s.points.size() + 1, 0); }}) {
+    Sweep sweep = drive()[1].sweep;
+    cut(sweep);
+    EXPECT_THROW(odometry.register_sweep(sweep), std::invalid_argument);
+  }
+  EXPECT_EQ(odometry.trajectory().size(), 1U);
+  EXPECT_EQ(odometry.register_sweep(drive()[1].sweep).status, OdometryStatus::kOk);
 }
 
 TEST(Faults, SingleTimesThatAreNoneOfTheSweep) {

@@ -49,7 +49,7 @@ class ThinnedMap {
   // Whether there is a point, of 16 × 16 × 16 voxels.
   using Block = std::bitset<4096>;
 
-  bool take(const Eigen::Vector3d& point);
+  bool take(const Eigen::Vector3d& point, double inverse_voxel);
 
   double voxel_m_;
   std::unordered_map<std::uint64_t, Block> taken_;  // by the key of the block
